@@ -9,6 +9,7 @@
 #include "import/gcode.h"
 #include "import/gcode_words.h"
 #include "import/inkml.h"
+#include "import/json_rows.h"
 #include "import/mat.h"
 #include "import/ros2_bag.h"
 #include "import/text_parts.h"
@@ -130,7 +131,8 @@ std::optional<SampleTable> read_known_format(const fs::path& path, const TableSe
   for (const char* ending : {".gcode", ".gco", ".nc", ".ngc", ".tap"})
     if (has_ending(path, ending)) return read_gcode(path, settings.pen_up);
   if (looks_like_gcode(text)) return read_gcode(path, settings.pen_up);
-  refuse_trees_of_text(path, text);
+  const bool is_table_of_json = !JsonRows::names_in(text.substr(0, text.find('\n'))).empty();
+  if (!is_table_of_json) refuse_trees_of_text(path, text);
   return {};
 }
 

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "import/column_name.h"
 #include "import/dialect.h"
+#include "import/json_rows.h"
 #include "import/sample_cells.h"
 #include "import/table_header.h"
 #include "import/table_layout.h"
@@ -54,9 +55,9 @@ class TextTable::Rows {
     if (!dialect_) begin_rows();
     if (table_.lines.empty()) throw_input_error("{}: has no samples; add at least one row", name_);
     cells_.finish(table_);
-    table_.description =
-        fmt::format("{}{}, {} columns, {} rows", lines_.encoding().empty() ? "" : lines_.encoding() + ", ",
-                    dialect_->text(), table_.columns.size(), grouped(table_.lines.size()));
+    table_.description = fmt::format(
+        "{}{}, {} columns, {} rows", lines_.encoding().empty() ? "" : lines_.encoding() + ", ",
+        json_ ? "lines of JSON" : dialect_->text(), table_.columns.size(), grouped(table_.lines.size()));
     if (!pen_up_.empty() && !lifted_)
       table_.warnings.push_back(fmt::format("{}: no line begins with {}, so the pen never lifts; correct {}",
                                             name_, settings_.pen_up, option_and_key("pen_up")));
@@ -96,6 +97,10 @@ class TextTable::Rows {
         return;
       }
     }
+    if (json_ || (nothing_before && begin_json(line))) {
+      if (!line.empty()) take_row(json_->split(line, fmt::format("{}:{}", name_, line_)));
+      return;
+    }
     if (dialect_) {
       take_fields(with_tabs, lifts);
       return;
@@ -103,6 +108,16 @@ class TextTable::Rows {
     waiting_.push_back({line_, std::string(with_tabs), lifts});
     waiting_rows_ += lifts ? 0 : 1;
     if (waiting_rows_ == lines_to_look_at) begin_rows();
+  }
+
+  /// True if the first line is an object of JSON: then all are.
+  bool begin_json(std::string_view line) {
+    std::vector<std::string> names = JsonRows::names_in(line);
+    if (names.empty()) return false;
+    dialect_ = {Separator::comma, DecimalMark::point};  // of the numbers' texts
+    set_columns(names, fmt::format("{}:{}", name_, line_));
+    json_.emplace(std::move(names));
+    return true;
   }
 
   static bool is_blank(std::string_view line) { return line.find_first_not_of('\t') == std::string::npos; }
@@ -249,6 +264,7 @@ class TextTable::Rows {
   std::string comment_;  // the last one before the first row
   std::optional<Dialect> dialect_;
   RowShape shape_;
+  std::optional<JsonRows> json_;
   LineSplitter splitter_;
   std::string location_;       // of the columns' names
   bool after_header_ = false;  // no sample yet

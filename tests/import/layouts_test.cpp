@@ -308,6 +308,27 @@ TEST(TablePen, ColumnsCanBeNamed) {
   EXPECT_THAT(refusal(text, settings), HasSubstr("column 'word' is missing"));
 }
 
+TEST(TableJson, LinesOfNumbersAreATable) {
+  const ImportedStroke found = imported(
+      "{\"stamp\":1700000000123456789,\"pos\":{\"x\":5,\"y\":6.5,\"z\":7},\"name\":\"a\"}\n"
+      "{\"pos\":{\"x\":5,\"y\":6,\"z\":8},\"stamp\":1700000000123456790,\"name\":\"b, c\"}\n",
+      [] {
+        TableSettings settings;
+        settings.position_unit = "m";
+        return settings;
+      }());
+  EXPECT_THAT(found.stroke.position, ElementsAre(Vector3d(5, 6.5, 7), Vector3d(5, 6, 8)));
+  EXPECT_THAT(found.stroke.time, ElementsAre(0.0, 1e-9));
+  EXPECT_THAT(found.description, HasSubstr("lines of JSON, 5 columns, 2 rows"));
+  EXPECT_EQ(imported("{\"pos\":[5,6,7]}\n{\"pos\":[5,6,8]}\n").stroke.position[0], Vector3d(5, 6, 7));
+  EXPECT_THAT(values(table_of("{\"x\":1,\"y\":2}\n{\"x\":null}\n"), "x"), ElementsAre(1, -1));
+  EXPECT_THAT(refusal("{\"x\":1,\"y\":2}\n{\"x\":1,\"q\":2}\n"),
+              HasSubstr("in.csv:2: 'q' is not in the first"));
+  EXPECT_THAT(refusal("{\"x\":1,\"y\":2}\n{\"x\":1,\n"), HasSubstr("in.csv:2: is not a JSON object"));
+  EXPECT_THAT(refusal("{\"x\":1,\"y\":2}\n{\"x\":1,\"y\":\"b\"}\n"), HasSubstr("in.csv:2: column 'y': 'b'"));
+  EXPECT_NE(refusal("{\"word\":\"line\",\"drawing\":[[[1,2],[3,4]]]}\n"), "");
+}
+
 TEST(TableClocks, InTwoColumnsAreOne) {
   for (const char* names :
        {"sec,nanosec", "secs,nsecs", "header.stamp.sec,header.stamp.nanosec", "stamp_sec,stamp_nanosec"}) {
