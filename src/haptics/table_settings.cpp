@@ -15,16 +15,20 @@ void describe_table(KeyVisitor& v, TableSettings& t) {
   v.number("speed", t.speed, not_negative, "m/s", "speed of the tip on the bed, instead of times");
   choose(v, "equal_times", t.equal_times, {"error", "drop", "spread"},
          "what to do with samples of equal times: stop with an error, keep the first, or space them evenly");
+  choose(
+      v, "missing", t.missing, {"gap", "error"},
+      "what to do with samples that lack a value (an empty cell, or NaN): leave them out and lift the tool "
+      "there, or stop with an error");
   v.text("velocity", t.velocity,
-         "columns of the tip's velocity; the stroke keeps it, but runs do not use it");
+         "columns of the tip's velocity, or none; the stroke keeps it, but runs do not use it");
   v.text("velocity_unit", t.velocity_unit, "unit of the velocity: m/s, cm/s or mm/s");
-  v.text("force", t.force, "columns of the recorded force");
+  v.text("force", t.force, "columns of the recorded force, or none");
   v.text("force_unit", t.force_unit, "unit of the force: N, mN or kN");
   choose(v, "force_sign", t.force_sign, force_sign_names,
          "on device: the force of the sand on the device; by hand: the force of the hand, its opposite");
   v.text("orientation", t.orientation,
-         "4 columns of a quaternion x,y,z,w, or 9 of a rotation matrix, row by row");
-  v.text("pressure", t.pressure, "column of the pen's pressure, in any unit");
+         "4 columns of a quaternion x,y,z,w, or 9 of a rotation matrix, row by row; or none");
+  v.text("pressure", t.pressure, "column of the pen's pressure, in any unit, or none");
   v.text("part", t.part,
          "one of several recordings in a file: a topic of a ROS 2 bag, a variable of a MATLAB file");
   v.text("columns", t.columns, "names of all columns, if no header line has them: \"x,y,t\"");
@@ -39,7 +43,8 @@ void describe_table(KeyVisitor& v, TableSettings& t) {
          "\"M280 S90\"");
   v.number(
       "gap_threshold", t.gap_threshold, not_negative, "s",
-      "samples further apart in time are not joined: the tool lifts; 0: 0.1 s, or no gaps if speed is given");
+      "samples further apart in time are not joined: the tool lifts; 0: five times the usual spacing, at "
+      "least 0.1 s, or no gaps if speed is given");
   int device = t.frame == "device" ? 1 : 0;
   v.choice("frame", device, {"bed", "device"}, "axes of the positions");
   t.frame = device == 1 ? "device" : "bed";

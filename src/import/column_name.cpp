@@ -19,6 +19,7 @@ const Words velocity_words{"v", "vel", "velocity", "speed", "twist"};
 const Words force_words{"f", "force", "wrench"};
 const Words orientation_words{"q", "quat", "quaternion", "orientation", "rot", "rotation"};
 const Words time_words{"t", "time", "timestamp", "stamp", "zeit", "temps", "tiempo"};
+const Words number_words{"frame", "sample", "seq", "index"};  // of the sample
 const Words other_words{"torque",       "tau",  "moment",  "a",   "acc",    "accel",
                         "acceleration", "gyro", "omega",   "mag", "target", "desired",
                         "goal",         "cmd",  "command", "ref", "cov",    "angular"};
@@ -119,6 +120,10 @@ ColumnName column_name(const std::string& name) {
   column.rank = static_cast<int>(words.size());
   if (time_words.contains(words.back())) {
     column.means = time;
+    return column;
+  }
+  if (number_words.contains(words.back())) {
+    column.means = number;
     return column;
   }
   if (words.back() == "pressure") {

@@ -7,7 +7,7 @@ namespace sandstroke {
 
 /// The meaning of a column's name, and its parts.
 struct ColumnName {
-  enum class Means { position, velocity, force, orientation, matrix, pressure, time, other };
+  enum class Means { position, velocity, force, orientation, matrix, pressure, time, number, other };
   Means means = Means::other;
   std::string bare;       ///< without its unit
   std::string unit;       ///< "mm" of "x [mm]", "x (mm)", "x_mm", "x/mm"; empty: none

@@ -20,6 +20,7 @@ TableSettings settings_of_second(const TableSettings& settings) {
   second.time_unit = settings.merge_time_unit;
   second.rate = settings.merge_rate;
   second.equal_times = settings.equal_times;
+  second.missing = settings.missing;
   second.force = settings.force;
   second.force_unit = settings.force_unit;
   second.force_sign = settings.force_sign;
@@ -50,7 +51,9 @@ std::vector<fs::path> sample_files(const fs::path& path, const TableSettings& se
 
 ImportedStroke import_stroke(const fs::path& path, const TableSettings& settings) {
   TableSettings of_first = settings;
-  if (!settings.merge.empty()) of_first.force = of_first.orientation = "";
+  if (!settings.merge.empty())
+    for (std::string* columns : {&of_first.force, &of_first.orientation})
+      if (!is_none(*columns)) columns->clear();  // of the second table
   ImportedStroke first = stroke_of_table(read_samples(path, of_first), of_first, samples_name(path));
   if (settings.merge.empty()) return first;
   const fs::path beside = sample_files(path, settings).back();

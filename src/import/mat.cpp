@@ -155,30 +155,6 @@ std::vector<MatVariable> chosen(std::vector<MatVariable> variables, const std::s
       name, listed(fit));
 }
 
-bool is_ever_finite(const SampleColumn& column) {
-  return std::any_of(column.values.begin(), column.values.end(),
-                     [](double value) { return std::isfinite(value); });
-}
-
-/// Leaves out samples with a number that is not finite, and columns without a finite number. Returns how many
-/// samples.
-std::size_t leave_out_unknown(std::vector<SampleColumn>& columns) {
-  std::erase_if(columns, [](const SampleColumn& column) { return !is_ever_finite(column); });
-  if (columns.empty()) return 0;
-  const std::size_t all = columns.front().values.size();
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < all; ++i) {
-    const bool known = std::all_of(columns.begin(), columns.end(), [i](const SampleColumn& column) {
-      return std::isfinite(column.values[i]);
-    });
-    if (!known) continue;
-    for (SampleColumn& column : columns) column.values[kept] = column.values[i];
-    ++kept;
-  }
-  for (SampleColumn& column : columns) column.values.resize(kept);
-  return all - kept;
-}
-
 }  // namespace
 
 SampleTable read_mat(const fs::path& path, const std::string& part) {
@@ -194,14 +170,7 @@ SampleTable read_mat(const fs::path& path, const std::string& part) {
     for (std::size_t k = 0; k < one.columns.size(); ++k)
       table.columns.push_back(
           {one.width == 1 ? one.name : fmt::format("{}.{}", one.name, k + 1), "", std::move(one.columns[k])});
-  const std::size_t left_out = leave_out_unknown(table.columns);
-  if (table.size() == 0)
-    throw_input_error(
-        "{}: every sample has a number that is NaN or infinite; name other variables with stroke.table.part "
-        "(stroke convert: --part)",
-        path.string());
-  table.description = fmt::format("MATLAB file: {} columns, {} samples{}", table.columns.size(), table.size(),
-                                  left_out ? fmt::format(", {} with NaN left out", left_out) : "");
+  table.description = fmt::format("MATLAB file: {} columns, {} samples", table.columns.size(), table.size());
   return table;
 }
 

@@ -11,9 +11,10 @@ namespace sandstroke {
 
 /// One column of a table of samples.
 struct SampleColumn {
-  std::string name;            ///< as in the file; "1", "2", ... if columns have no names
-  std::string unit;            ///< as in the file ("mm", "N"); empty: none, or only in the name
-  std::vector<double> values;  ///< one per sample, finite; empty: the column is not used
+  std::string name;  ///< as in the file; "1", "2", ... if columns have no names
+  std::string unit;  ///< as in the file ("mm", "N"); empty: none, or only in the name
+  /// One per sample; not finite where the file has no number. Empty: the column is not used.
+  std::vector<double> values;
   /// The number that was subtracted from all values: the first of a clock's stamps, which no double holds.
   std::optional<std::int64_t> origin = {};
 };

@@ -208,23 +208,24 @@ TableLayout table_layout(const std::vector<SampleColumn>& columns, const TableSe
   }
   layout.axes = of_first ? *of_first : finder.axes_of(layout.position);
   const auto vector = [&](const std::string& list, const char* key, Means means) {
+    if (is_none(list)) return ColumnChoices();
     return list.empty() ? along(finder.found(means, 2, 3), layout.axes) : finder.named(list, key, {2, 3});
   };
   layout.velocity = vector(settings.velocity, "velocity", Means::velocity);
   layout.force = vector(settings.force, "force", Means::force);
-  if (!settings.orientation.empty()) {
+  if (!settings.orientation.empty() && !is_none(settings.orientation)) {
     layout.orientation = finder.named(settings.orientation, "orientation", {4, 9});
-  } else {
+  } else if (settings.orientation.empty()) {
     layout.orientation = finder.found(Means::orientation, 4, 4);
     if (layout.orientation.empty()) layout.orientation = finder.found(Means::matrix, 9, 9);
   }
-  layout.pressure =
-      settings.pressure.empty() ? finder.found_one(Means::pressure) : finder.one(settings.pressure);
-  if (!settings.time.empty()) {
-    layout.time = finder.one(settings.time);
-  } else if (settings.rate == 0.0 && settings.speed == 0.0) {
-    layout.time = finder.found_one(Means::time);
-  }
+  if (!is_none(settings.pressure))
+    layout.pressure =
+        settings.pressure.empty() ? finder.found_one(Means::pressure) : finder.one(settings.pressure);
+  const bool replaced = settings.time.empty() && (settings.rate > 0.0 || settings.speed > 0.0);
+  (replaced ? layout.replaced_time : layout.time) =
+      settings.time.empty() ? finder.found_one(Means::time) : finder.one(settings.time);
+  layout.sample_number = finder.found_one(Means::number);
   return layout;
 }
 

@@ -23,6 +23,8 @@ struct TableLayout {
   ColumnChoices velocity, force;  ///< 2 or 3, or none
   ColumnChoices orientation;      ///< 4, 9 or none
   std::optional<std::size_t> time, pressure;
+  /// Columns that only check others: times that a rate or a speed replaces, and numbers of the samples.
+  std::optional<std::size_t> replaced_time, sample_number;
   /// From the table's axes to the stroke's: its rows are the positions' columns.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 };

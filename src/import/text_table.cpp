@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -75,8 +76,8 @@ class TextTable::Rows {
     lines_.end([this](std::string_view line, std::size_t number) { take_numbered(line, number); });
     if (!dialect_) begin_rows();
     if (table_.lines.empty()) throw_input_error("{}: has no samples; add at least one row", name_);
-    if (layout_.time) {
-      SampleColumn& time = table_.columns[*layout_.time];
+    if (const auto stamps = layout_.time ? layout_.time : layout_.replaced_time) {
+      SampleColumn& time = table_.columns[*stamps];
       time.origin = stamps_.origin();
       if (stamps_.iso()) time.unit = iso_unit;
     }
@@ -264,6 +265,9 @@ class TextTable::Rows {
     std::sort(wanted_.begin(), wanted_.end());
     wanted_.erase(std::unique(wanted_.begin(), wanted_.end()), wanted_.end());
     if (layout_.time) std::erase(wanted_, *layout_.time);
+    for (std::optional<std::size_t>* check : {&layout_.replaced_time, &layout_.sample_number})
+      if (*check && (*check == layout_.time || std::binary_search(wanted_.begin(), wanted_.end(), **check)))
+        check->reset();  // it is read for something else
   }
 
   void take_sample(const std::vector<std::string>& fields) {
@@ -281,6 +285,7 @@ class TextTable::Rows {
         refuse_field(*layout_.time, field, "a time in the format of the rows before, or a finite number");
       table_.columns[*layout_.time].values.push_back(*time);
     }
+    read_checks(fields);
     for (const std::size_t column : wanted_) {
       const auto value = field_number(fields[column], dialect_->decimal);
       if (!value) refuse_field(column, fields[column], "a finite number");
@@ -288,6 +293,20 @@ class TextTable::Rows {
     }
     table_.lines.push_back(line_);
     if (!pen_up_.empty()) table_.lifts.push_back(false);
+  }
+
+  /// Reads the columns that only check others. They may hold anything.
+  void read_checks(const std::vector<std::string>& fields) {
+    const auto nothing = std::numeric_limits<double>::quiet_NaN();
+    const auto plain = [&](std::string field) {
+      if (dialect_->decimal == DecimalMark::comma) std::replace(field.begin(), field.end(), ',', '.');
+      return field;
+    };
+    if (const auto column = layout_.replaced_time)
+      table_.columns[*column].values.push_back(stamps_.read(plain(fields[*column])).value_or(nothing));
+    if (const auto column = layout_.sample_number)
+      table_.columns[*column].values.push_back(
+          field_number(fields[*column], dialect_->decimal).value_or(nothing));
   }
 
   [[noreturn]] void refuse_field(std::size_t column, const std::string& field, const char* wanted) const {

@@ -152,7 +152,7 @@ TEST(Mat, FieldsOfAStructAreColumns) {
   }
 }
 
-TEST(Mat, SamplesWithNaNAreLeftOut) {
+TEST(Mat, SamplesWithNaNKeepTheirPlace) {
   const TestFolder folder;
   double x[] = {1, std::nan(""), 3}, never[] = {std::nan(""), std::nan(""), std::nan("")};
   {
@@ -161,11 +161,13 @@ TEST(Mat, SamplesWithNaNAreLeftOut) {
     file.save(MatlabFile::of("never", MAT_C_DOUBLE, MAT_T_DOUBLE, 3, 1, never));
     file.save(MatlabFile::matrix("y", 3, 1, 7));
   }
-  const SampleTable table = read_mat(folder / "nan.mat");
-  EXPECT_EQ(table.columns.size(), 2u);
-  EXPECT_THAT(column(table, "x").values, ElementsAre(1, 3));
-  EXPECT_THAT(column(table, "y").values, ElementsAre(7, 9));
-  EXPECT_THAT(table.description, HasSubstr("1 with NaN left out"));
+  EXPECT_THAT(column(read_mat(folder / "nan.mat"), "y").values, ElementsAre(7, 8, 9));
+  TableSettings settings;
+  settings.rate = 10.0;
+  settings.position_unit = "m";
+  const Stroke stroke = import_stroke(folder / "nan.mat", settings).stroke;
+  EXPECT_THAT(stroke.time, ElementsAre(0.0, 0.2));
+  EXPECT_THAT(stroke.contact, ElementsAre(pen_lifts, pen_down));
 }
 
 TEST(Mat, SaysWhatIsWrong) {

@@ -160,6 +160,7 @@ const std::vector<KeyCase> cases = {
     {"stroke.table.speed=0.88", [](S s) { return s.stroke->table->speed == 0.88; }, stroke},
     {"stroke.table.equal_times=spread",
      [](S s) { return s.stroke->table->equal_times == EqualTimes::spread; }, stroke},
+    {"stroke.table.missing=error", [](S s) { return s.stroke->table->missing == Missing::error; }, stroke},
     {"stroke.table.velocity=a,b", [](S s) { return s.stroke->table->velocity == "a,b"; }, stroke},
     {"stroke.table.velocity_unit=mm/s", [](S s) { return s.stroke->table->velocity_unit == "mm/s"; }, stroke},
     {"stroke.table.force=c,d", [](S s) { return s.stroke->table->force == "c,d"; }, stroke},
