@@ -35,8 +35,11 @@ void describe_table(KeyVisitor& v, TableSettings& t) {
   v.integers("skip_lines", &t.skip_lines, 1, 0, 1'000'000, "number of lines to skip at the beginning");
   v.text("skip", t.skip, "lines that begin with one of these words are skipped: \"START,END\"");
   v.text("pen_up", t.pen_up,
-         "lines that begin with one of these words lift the pen; for G-code, the command of its servo: "
-         "\"M280 S90\"");
+         "lines that begin with one of these words lift the pen; for G-code, the word that lifts it: "
+         "\"M280 S90\", \"M3 S30\", \"M5\", \"G0\"");
+  v.text("pen_down", t.pen_down,
+         "for G-code, the word that lowers the pen, if it is not the one of pen_up with another number: "
+         "\"M106\"");
   v.number(
       "gap_threshold", t.gap_threshold, not_negative, "s",
       "samples further apart in time are not joined: the tool lifts; 0: 0.1 s, or no gaps if speed is given");

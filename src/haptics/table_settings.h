@@ -36,6 +36,7 @@ struct TableSettings {
   std::string encoding;        ///< as iconv names it
   int skip_lines = 0;          ///< at the beginning
   std::string skip, pen_up;    ///< first words of lines
+  std::string pen_down;        ///< G-code's word that lowers the pen
   double gap_threshold = 0.0;  ///< s; 0: as in Stroke, and none with `speed`
   std::string frame = "bed";   ///< "bed" or "device"
   std::string merge;           ///< a second table, with force or orientation at its own times

@@ -2,9 +2,11 @@
 
 #include <optional>
 
+#include "core/error.h"
 #include "core/input_file.h"
 #include "import/formats.h"
 #include "import/merge_strokes.h"
+#include "import/table_layout.h"
 #include "import/text_table.h"
 
 namespace sandstroke {
@@ -31,6 +33,9 @@ SampleTable read_samples(const fs::path& path, const TableSettings& settings,
                          const std::optional<Eigen::Matrix3d>& of_first = {}) {
   if (path != "-")
     if (std::optional<SampleTable> samples = read_known_format(path, settings)) return std::move(*samples);
+  if (!settings.pen_down.empty())
+    throw_input_error("{}: is a table of text, in which pen_down has no meaning; give {} for G-code only",
+                      samples_name(path), option_and_key("pen_down"));
   InputFile file(path == "-" ? "/dev/stdin" : path, InputFile::Pipe::taken);
   TextTable table(samples_name(path), settings, of_first);
   for (std::string_view part = file.next_block(); !part.empty(); part = file.next_block()) table.read(part);

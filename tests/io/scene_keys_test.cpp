@@ -178,6 +178,7 @@ const std::vector<KeyCase> cases = {
     {"stroke.table.skip_lines=89", [](S s) { return s.stroke->table->skip_lines == 89; }, stroke},
     {"stroke.table.skip=START,END", [](S s) { return s.stroke->table->skip == "START,END"; }, stroke},
     {"stroke.table.pen_up=UP", [](S s) { return s.stroke->table->pen_up == "UP"; }, stroke},
+    {"stroke.table.pen_down=DOWN", [](S s) { return s.stroke->table->pen_down == "DOWN"; }, stroke},
     {"stroke.table.gap_threshold=0.91", [](S s) { return s.stroke->table->gap_threshold == 0.91; }, stroke},
     {"stroke.table.frame=device", [](S s) { return s.stroke->table->frame == "device"; }, stroke},
     {"stroke.table.merge=force.csv", [](S s) { return s.stroke->table->merge == "force.csv"; }, stroke},
