@@ -33,7 +33,7 @@ sandstroke_needs(HDF5_HL_LIBRARY libhdf5-dev "HDF5's high-level library (dimensi
                  "find_library(HDF5_HL_LIBRARY hdf5_hl HINTS ${HDF5_LIBRARY_DIRS})")
 sandstroke_needs(MATIO_FOUND libmatio-dev "matio (strokes from .mat)" "pkg_check_modules(MATIO QUIET IMPORTED_TARGET matio)")
 sandstroke_needs(SQLITE_FOUND libsqlite3-dev "SQLite (ROS 2 bags)" "pkg_check_modules(SQLITE QUIET IMPORTED_TARGET sqlite3)")
-sandstroke_needs(PUGIXML_FOUND libpugixml-dev "pugixml (InkML)" "pkg_check_modules(PUGIXML QUIET IMPORTED_TARGET pugixml)")
+sandstroke_needs(PUGIXML_FOUND libpugixml-dev "pugixml (InkML, SVG)" "pkg_check_modules(PUGIXML QUIET IMPORTED_TARGET pugixml)")
 sandstroke_needs(CSV_LIBRARY libcsv-dev "libcsv (tables)" "find_library(CSV_LIBRARY csv)")
 sandstroke_needs(DATE_INCLUDE_DIR libhowardhinnant-date-dev "date/date.h (ISO 8601)" "find_path(DATE_INCLUDE_DIR date/date.h)")
 
