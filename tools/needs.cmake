@@ -31,9 +31,11 @@ sandstroke_needs(Boost_FOUND libboost-dev "Boost 1.74 (Beast and Asio: the live 
 sandstroke_needs(HDF5_FOUND libhdf5-dev "HDF5 (run files)" "pkg_check_modules(HDF5 QUIET IMPORTED_TARGET hdf5)")
 sandstroke_needs(HDF5_HL_LIBRARY libhdf5-dev "HDF5's high-level library (dimension scales)"
                  "find_library(HDF5_HL_LIBRARY hdf5_hl HINTS ${HDF5_LIBRARY_DIRS})")
-sandstroke_needs(MATIO_FOUND libmatio-dev "matio (strokes from .mat)" "pkg_check_modules(MATIO QUIET IMPORTED_TARGET matio)")
 sandstroke_needs(SQLITE_FOUND libsqlite3-dev "SQLite (ROS 2 bags)" "pkg_check_modules(SQLITE QUIET IMPORTED_TARGET sqlite3)")
-sandstroke_needs(PUGIXML_FOUND libpugixml-dev "pugixml (InkML)" "pkg_check_modules(PUGIXML QUIET IMPORTED_TARGET pugixml)")
+sandstroke_needs(LZ4_FOUND liblz4-dev "LZ4 (MCAP, ROS 1 bags)" "pkg_check_modules(LZ4 QUIET IMPORTED_TARGET liblz4)")
+sandstroke_needs(ZSTD_FOUND libzstd-dev "Zstandard (MCAP)" "pkg_check_modules(ZSTD QUIET IMPORTED_TARGET libzstd)")
+sandstroke_needs(BZIP2_FOUND libbz2-dev "bzip2 (ROS 1 bags)" "find_package(BZip2 QUIET)")
+sandstroke_needs(PUGIXML_FOUND libpugixml-dev "pugixml (InkML, SVG)" "pkg_check_modules(PUGIXML QUIET IMPORTED_TARGET pugixml)")
 sandstroke_needs(CSV_LIBRARY libcsv-dev "libcsv (tables)" "find_library(CSV_LIBRARY csv)")
 sandstroke_needs(DATE_INCLUDE_DIR libhowardhinnant-date-dev "date/date.h (ISO 8601)" "find_path(DATE_INCLUDE_DIR date/date.h)")
 
@@ -57,6 +59,8 @@ if(SANDSTROKE_PYTHON)
 endif()
 
 if(SANDSTROKE_TESTS)
+  sandstroke_needs(MATIO_FOUND libmatio-dev "matio, which writes .mat (or -DSANDSTROKE_TESTS=OFF)"
+                   "pkg_check_modules(MATIO QUIET IMPORTED_TARGET matio)")
   sandstroke_needs(GTest_FOUND libgtest-dev "googletest (or -DSANDSTROKE_TESTS=OFF)" "find_package(GTest QUIET)")
   sandstroke_needs(GMOCK_INCLUDE_DIR libgmock-dev "gmock/gmock.h (or -DSANDSTROKE_TESTS=OFF)"
                    "find_path(GMOCK_INCLUDE_DIR gmock/gmock.h)")

@@ -22,7 +22,7 @@ CLI::Validator number_within(Range range);
 CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrides);
 
 /// The files that shells offer for a stroke: scripts, recordings, and all that `stroke convert` reads.
-inline constexpr const char* stroke_file_type = "FILE.toml|.h5|.csv|.txt|.thr|.gcode|.mat|.db3";
+inline constexpr const char* stroke_file_type = "FILE.toml|.h5|.csv|.txt|.thr|.gcode|.mat|.mcap|.db3|.bag";
 
 /// The override with which --stroke FILE (- is standard input) replaces the scene's stroke.
 std::string stroke_override(const std::string& file);

@@ -89,8 +89,8 @@ void add_convert(CLI::App& stroke_app, Command& chosen) {
   app->add_option(
          "IN", options->in,
          "Table of numbers, one sample per line (- is standard input); or a file of a sand table (.thr), a "
-         "plotter (G-code), a pen (UNIPEN, InkML), MATLAB (.mat) or ROS 2 (.db3)")
-      ->type_name("FILE.csv|.txt|.thr|.gcode|.mat|.db3|-")
+         "plotter (G-code), a pen (UNIPEN, InkML), MATLAB (.mat) or ROS (.mcap, .db3, .bag)")
+      ->type_name("FILE.csv|.txt|.thr|.gcode|.mat|.mcap|.db3|.bag|-")
       ->required();
   app->add_option("OUT", options->out, "Stroke to write (.h5)")->type_name("FILE.h5")->required();
   add_table_options(*app, options->table);

@@ -7,11 +7,14 @@
 #include "cli/record_parts.h"
 #include "cli/standard_output.h"
 #include "cli/stroke_parts.h"
+#include "cli/table_options.h"
+#include "core/error.h"
 #include "core/log.h"
 #include "core/median.h"
 #include "core/terminal_text.h"
 #include "haptics/stroke_coverage.h"
 #include "haptics/stroke_quality.h"
+#include "import/table_layout.h"
 #include "io/recording_file.h"
 #include "io/stroke_file.h"
 #include "record/recording_json.h"
@@ -185,24 +188,37 @@ std::string as_table(const std::string& file, const Stroke& stroke, const Stroke
   return table;
 }
 
+/// Refuses options that say how a table is read where none is read.
+void refuse_options_without_table(const std::string& file, const TableOptions& given) {
+  if (!is_recorded(file) && !is_script(file)) return;
+  for (const auto& [key, value] : given)
+    if (!value.empty())
+      throw_input_error("{}: is a {} stroke, which {} does not change; leave it out", file,
+                        is_recorded(file) ? "recorded" : "scripted", option_of(key));
+}
+
 }  // namespace
 
 void add_stroke_info_command(CLI::App& stroke_app, Command& chosen) {
   struct Options {
     std::string file;
+    TableOptions table;
     bool json = false;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* app = stroke_app.add_subcommand("info", "Show the content of a stroke file");
+  CLI::App* app = stroke_app.add_subcommand(
+      "info", "Show the content of a stroke file, or what 'stroke convert' would make of another file");
   app->add_option("FILE", options->file,
                   "Recorded (.h5) or scripted (.toml) stroke, or any file that 'stroke convert' reads")
       ->type_name(stroke_file_type)
       ->option_text("REQUIRED")
       ->required();
   app->add_flag("--json", options->json, "One JSON object in SI units instead of a table");
+  add_table_options(*app, options->table);
   app->callback([&chosen, options] {
     chosen = [options] {
-      const Stroke stroke = load_stroke(options->file, ForceSettings{});
+      refuse_options_without_table(options->file, options->table);
+      const Stroke stroke = load_stroke(options->file, ForceSettings{}, table_settings(options->table));
       const StrokeQuality quality = quality_of(stroke);
       const std::optional<RecordingInfo> recording =
           is_recorded(options->file) ? read_recording_info(options->file) : std::nullopt;

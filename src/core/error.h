@@ -15,9 +15,11 @@ enum class ErrorKind {
 };
 
 /// The only exception of this program. Its sentence says what failed, where (file, line, key) and what to do.
+/// It is one line, and whole: terminal_line() escapes what it quotes, also a zero byte, at which what() would
+/// end.
 class Error : public std::runtime_error {
  public:
-  Error(ErrorKind kind, const std::string& sentence) : std::runtime_error(sentence), kind_(kind) {}
+  Error(ErrorKind kind, const std::string& sentence);
   ErrorKind kind() const { return kind_; }
   int exit_code() const { return static_cast<int>(kind_); }
 

@@ -30,7 +30,10 @@ std::string_view InputFile::next_block() {
   block_.resize(1 << 16);
   while (true) {
     const ssize_t count = ::read(file_, block_.data(), block_.size());
-    if (count >= 0) return {block_.data(), static_cast<std::size_t>(count)};
+    if (count >= 0) {
+      block_end_ += static_cast<std::uint64_t>(count);
+      return {block_.data(), static_cast<std::size_t>(count)};
+    }
     if (errno != EINTR)
       throw_io_error("{}: cannot be read ({}); check the disk, or take another copy of the file", name_,
                      std::strerror(errno));
@@ -48,6 +51,19 @@ std::size_t InputFile::read(void* bytes, std::size_t count) {
     done += taken;
   }
   return done;
+}
+
+void InputFile::seek(std::uint64_t byte) {
+  const std::uint64_t begin = block_end_ - rest_.size();
+  if (byte >= begin && byte <= block_end_) {
+    rest_.remove_prefix(byte - begin);
+    return;
+  }
+  if (lseek(file_, static_cast<off_t>(byte), SEEK_SET) < 0)
+    throw_io_error("{}: byte {} cannot be reached ({}); take another copy of the file", name_, byte,
+                   std::strerror(errno));
+  block_end_ = byte;
+  rest_ = {};
 }
 
 void check_readable(const fs::path& path) { const InputFile opens(path); }

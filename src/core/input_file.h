@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -19,6 +20,8 @@ class InputFile {
   ~InputFile();
   /// Reads `count` bytes, fewer only at the end of the file. Returns how many.
   std::size_t read(void* bytes, std::size_t count);
+  /// Goes on reading at a byte of the file, counted from 0; behind its end there is nothing to read.
+  void seek(std::uint64_t byte);
   /// The next bytes, valid until the next call; empty at the end of the file.
   std::string_view next_block();
 
@@ -26,7 +29,8 @@ class InputFile {
   std::string name_;
   int file_ = -1;
   std::vector<char> block_;
-  std::string_view rest_;  // the part of the block that was not given out yet
+  std::uint64_t block_end_ = 0;  // where the block ends in the file
+  std::string_view rest_;        // the part of the block that was not given out yet
 };
 
 /// Error: io, unless it is a regular file that can be opened.

@@ -20,6 +20,22 @@ LoneSamples lone_samples(const Stroke& stroke) {
   return samples;
 }
 
+/// Numbers of steps between samples with the pen down: those that are too long in time to be joined, and all.
+struct CutSteps {
+  std::size_t cut = 0, all = 0;
+};
+
+CutSteps cut_steps(const Stroke& stroke) {
+  CutSteps steps;
+  for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {
+    if (!stroke.pen_down(i) || !stroke.pen_down(i + 1)) continue;
+    if (!stroke.contact.empty() && stroke.contact[i] == pen_lifts) continue;
+    ++steps.all;
+    steps.cut += !stroke.sampled_between(i);
+  }
+  return steps;
+}
+
 }  // namespace
 
 PlayedPart played_part(const StrokeSampler& stroke) {
@@ -61,6 +77,13 @@ std::string coverage_warning(const Stroke& stroke, const std::string& name) {
         "hardly anything is drawn; check the unit of the times, or give a larger gap threshold (stroke "
         "convert --gap-threshold, stroke.table.gap_threshold)",
         name, alone, all, stroke.gap_threshold);
+  constexpr std::size_t few = 10;
+  if (const auto [cut, all] = cut_steps(stroke); cut > few && 5 * cut > all)
+    return fmt::format(
+        "{}: the tool is lifted in {} of the {} steps between its samples, because they are longer than "
+        "{:.4g} s: its furrow is dashed; check the unit of the times, or give a larger gap threshold (stroke "
+        "convert --gap-threshold, stroke.table.gap_threshold)",
+        name, cut, all, stroke.gap_threshold);
   return "";
 }
 

@@ -30,11 +30,6 @@ std::vector<hsize_t> extent_of(const Hdf5Handle& dataset) {
   return shape;
 }
 
-bool is_number(hid_t type) {
-  const H5T_class_t kind = H5Tget_class(type);
-  return kind == H5T_INTEGER || kind == H5T_FLOAT || kind == H5T_ENUM;
-}
-
 /// Reads a scalar string, of fixed or variable length. False: it is no string. read: gets the memory type and
 /// the buffer.
 template <class Read>
@@ -58,7 +53,8 @@ bool read_string(hid_t file_type, std::string& text, const Read& read) {
   return true;
 }
 
-/// HDF5 calls this for each link or attribute. It adds the name to a list.
+/// HDF5 calls this for each link or attribute. It adds the name to a list. HDF5 1.10 must not sort them: if
+/// it fails in between, it frees memory that it never took.
 template <class Info>
 herr_t add_name(hid_t, const char* name, const Info*, void* list) {
   static_cast<std::vector<std::string>*>(list)->emplace_back(name);
@@ -76,6 +72,11 @@ bool is_being_written(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+bool is_hdf5_number(hid_t type) {
+  const H5T_class_t kind = H5Tget_class(type);
+  return kind == H5T_INTEGER || kind == H5T_FLOAT || kind == H5T_ENUM;
+}
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : name_(path.string()) {
   prepare_hdf5();
@@ -139,7 +140,7 @@ Hdf5Handle Hdf5Reader::open_dataset(const std::string& dataset) const {
 Hdf5Handle Hdf5Reader::open_numbers(const std::string& dataset, int rank, std::vector<hsize_t>& shape) const {
   Hdf5Handle opened = open_dataset(dataset);
   const Hdf5Handle type(H5Dget_type(opened), H5Tclose);
-  if (!is_number(type)) fail(dataset, "does not hold numbers; write it as float64");
+  if (!is_hdf5_number(type)) fail(dataset, "does not hold numbers; write it as float64");
   shape = extent_of(opened);
   if (static_cast<int>(shape.size()) != rank)
     fail(dataset, fmt::format("has {} dimensions; write it with {}", shape.size(), rank));
@@ -321,7 +322,7 @@ double Hdf5Reader::number_attribute(const std::string& object, const std::string
   const Hdf5Handle type(H5Aget_type(opened), H5Tclose);
   const Hdf5Handle space(H5Aget_space(opened), H5Sclose);
   double value = 0.0;
-  if (!is_number(type) || H5Sget_simple_extent_npoints(space) != 1 ||
+  if (!is_hdf5_number(type) || H5Sget_simple_extent_npoints(space) != 1 ||
       H5Aread(opened, H5T_NATIVE_DOUBLE, &value) < 0)
     fail_to_read(object, fmt::format("attribute '{}' is not a single number", attribute));
   return value;
@@ -333,7 +334,7 @@ std::string Hdf5Reader::text_attribute(const std::string& object, const std::str
   const Hdf5Handle space(H5Aget_space(opened), H5Sclose);
   std::string text;
   const bool is_text =
-      H5Sget_simple_extent_npoints(space) == 1 &&
+      H5Sget_simple_extent_npoints(space) == 1 && static_cast<double>(H5Tget_size(type)) <= file_bytes_ &&
       read_string(type, text, [&](hid_t memory_type, void* buffer) {
         if (H5Aread(opened, memory_type, buffer) < 0)
           fail_to_read(object, fmt::format("attribute '{}' cannot be read; the file is damaged", attribute));
@@ -352,18 +353,20 @@ double Hdf5Reader::cell_size(const std::string& object) const {
 std::vector<std::string> Hdf5Reader::members(const std::string& group) const {
   if (!has(group)) fail(group, "is missing; name a file of the right kind");
   std::vector<std::string> names;
-  if (H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add_name<H5L_info_t>,
+  if (H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, add_name<H5L_info_t>,
                          &names, access_) < 0)
     fail_to_read(group, "is not a group; name a file of the right kind");
+  std::sort(names.begin(), names.end());
   return names;
 }
 
 std::vector<std::string> Hdf5Reader::attributes(const std::string& object) const {
   if (!has(object)) fail(object, "is missing; name a file of the right kind");
   std::vector<std::string> names;
-  if (H5Aiterate_by_name(file_, object.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add_name<H5A_info_t>,
+  if (H5Aiterate_by_name(file_, object.c_str(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, add_name<H5A_info_t>,
                          &names, access_) < 0)
     fail_to_read(object, "has attributes that cannot be read; the file is damaged");
+  std::sort(names.begin(), names.end());
   return names;
 }
 

@@ -13,6 +13,9 @@
 
 namespace sandstroke {
 
+/// True for whole and real numbers, and for enumerations of them (h5py's bool).
+bool is_hdf5_number(hid_t type);
+
 /// An HDF5 file opened for reading. Datasets are named by their path ("/trace/time"). Every error names file
 /// and dataset. Error: io, if the file cannot be opened; input, if its content is not as asked for. The
 /// reader opens no other file. For columns and text it takes no more memory than most_unpacked() of the
@@ -54,17 +57,9 @@ class Hdf5Reader {
   std::vector<std::string> members(const std::string& group) const;
   std::vector<std::string> attributes(const std::string& object) const;
 
- private:
+ protected:
   Hdf5Handle open_dataset(const std::string& dataset) const;
   void read(const std::string& dataset, const Hdf5Handle& opened, hid_t memory_type, void* values) const;
-  /// Opens a column and reads its shape. row_bytes: memory that each row will take.
-  Hdf5Handle open_column(const std::string& dataset, int rank, std::size_t row_bytes,
-                         std::vector<hsize_t>& shape) const;
-  /// Opens a dataset of numbers with `rank` dimensions and returns its shape too.
-  Hdf5Handle open_numbers(const std::string& dataset, int rank, std::vector<hsize_t>& shape) const;
-  Hdf5Handle open_attribute(const std::string& object, const std::string& attribute) const;
-  /// HDF5's answer to a question about the file. Error: io, if it cannot tell because of the disk.
-  bool yes(const std::function<htri_t()>& ask) const;
   [[noreturn]] void fail(const std::string& object, const std::string& sentence) const;
   /// Throws after HDF5 could not read an object. Error: io, if the disk is the cause; else input.
   [[noreturn]] void fail_to_read(const std::string& object, const std::string& sentence) const;
@@ -73,6 +68,16 @@ class Hdf5Reader {
   Hdf5Handle file_;
   Hdf5Handle access_;  // for objects: links into other files are not followed
   double file_bytes_ = 0.0;
+
+ private:
+  /// Opens a column and reads its shape. row_bytes: memory that each row will take.
+  Hdf5Handle open_column(const std::string& dataset, int rank, std::size_t row_bytes,
+                         std::vector<hsize_t>& shape) const;
+  /// Opens a dataset of numbers with `rank` dimensions and returns its shape too.
+  Hdf5Handle open_numbers(const std::string& dataset, int rank, std::vector<hsize_t>& shape) const;
+  Hdf5Handle open_attribute(const std::string& object, const std::string& attribute) const;
+  /// HDF5's answer to a question about the file. Error: io, if it cannot tell because of the disk.
+  bool yes(const std::function<htri_t()>& ask) const;
 };
 
 }  // namespace sandstroke

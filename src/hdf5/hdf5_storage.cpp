@@ -48,6 +48,16 @@ bool are_known(const std::vector<H5Z_filter_t>& filters) {
   });
 }
 
+/// True if a dataset without chunks has room for all its numbers. HDF5 would copy what lies behind it, or
+/// nothing at all. A dataset that was never written has no room, and reads as its fill value.
+bool has_room(const Hdf5Handle& dataset, H5D_layout_t layout, const Hdf5Handle& space) {
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
+  const double needed =
+      static_cast<double>(H5Sget_simple_extent_npoints(space)) * static_cast<double>(H5Tget_size(type));
+  const double room = static_cast<double>(H5Dget_storage_size(dataset));
+  return room == needed || (layout == H5D_CONTIGUOUS && room == 0.0);
+}
+
 /// True if a zlib stream unpacks to exactly so many bytes.
 bool inflates_to(double bytes, std::vector<Bytef>& packed, std::size_t packed_bytes) {
   z_stream stream{};
@@ -107,7 +117,8 @@ std::string layout_fault(const Hdf5Handle& dataset, double file_bytes) {
 std::string storage_fault(const Hdf5Handle& dataset, double file_bytes,
                           const std::function<void(const hsize_t* start)>& visit) {
   const Hdf5Handle properties = properties_of(dataset), space(H5Dget_space(dataset), H5Sclose);
-  if (H5Pget_layout(properties) != H5D_CHUNKED) return "";
+  const H5D_layout_t layout = H5Pget_layout(properties);
+  if (layout != H5D_CHUNKED) return has_room(dataset, layout, space) ? "" : damaged;
   const Chunks chunks(properties, dataset);
   hsize_t written = 0;
   if (H5Dget_num_chunks(dataset, space, &written) < 0) return damaged;

@@ -18,8 +18,8 @@ double most_unpacked(double file_bytes);
 /// Finds numbers in other files, filters that are not read here, and chunks larger than the file can hold.
 std::string layout_fault(const Hdf5Handle& dataset, double file_bytes);
 
-/// Finds a written chunk that does not unpack to a chunk's size. The layout must be without fault. visit:
-/// called with the first indices of each chunk, one per dimension. Without chunks there is no fault.
+/// Finds a written chunk that does not unpack to a chunk's size, or without chunks, too little room. The
+/// layout must be without fault. visit: called with the first indices of each chunk, one per dimension.
 std::string storage_fault(
     const Hdf5Handle& dataset, double file_bytes,
     const std::function<void(const hsize_t* start)>& visit = [](const hsize_t*) {});

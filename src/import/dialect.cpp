@@ -16,22 +16,38 @@ namespace {
 
 constexpr unsigned char separator_bytes[] = {',', ',', ';', '\t', ' '};
 
+/// A mark that stands in sentences and headers as well as for a missing value.
+bool says_nothing(const std::string& field) { return field.empty() || field == "-" || field == "."; }
+
 /// How well a dialect fits the lines: many fields are numbers, few are not, and most rows are equally long.
+/// Lines without a number are names, units or remarks, and only their length counts.
 long score_of(const std::vector<std::string>& lines, const Dialect& dialect, std::size_t& columns) {
   LineSplitter splitter;
   struct Rows {
-    long count = 0, score = 0;
+    long count = 0, with_values = 0, score = 0;
   };
   std::map<std::size_t, Rows> by_length;
   for (const std::string& line : lines) {
     const std::vector<std::string>& fields = splitter.split(line, dialect.separator);
     Rows& rows = by_length[fields.size()];
     ++rows.count;
-    for (const std::string& field : fields)
-      if (!field.empty()) rows.score += is_value(field, dialect.decimal) ? 4 : -1;
+    long score = 0;
+    bool has_cell = false;
+    for (const std::string& field : fields) {
+      if (says_nothing(field)) continue;
+      const bool is_cell = is_value(field, dialect.decimal) || is_missing(field);
+      has_cell = has_cell || is_cell;
+      score += is_cell ? 4 : -1;
+    }
+    if (!has_cell) continue;
+    ++rows.with_values;
+    rows.score += score;
   }
   const auto most = std::max_element(by_length.begin(), by_length.end(), [](const auto& a, const auto& b) {
-    return a.second.count < b.second.count;
+    const auto by = [](const auto& rows) {
+      return std::pair(rows.with_values, rows.count);
+    };  // a header tips it
+    return by(a.second) < by(b.second);
   });
   if (most == by_length.end() || most->first < 2) return 0;
   columns = most->first;
@@ -93,11 +109,27 @@ std::optional<double> field_number(const std::string& field, DecimalMark decimal
   return finite_number(plain);
 }
 
+bool is_missing(std::string_view field) {
+  if (field.empty()) return true;
+  constexpr std::string_view words[] = {"-",        "--",        "?",       ".",       "na",    "n/a",
+                                        "#n/a",     "nan",       "-nan",    "+nan",    "nil",   "null",
+                                        "none",     "missing",   "#nan",    "<na>",    "nat",   "nan()",
+                                        "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind", "1.#ind"};
+  constexpr std::size_t longest = 9;
+  if (field.size() > longest || std::isdigit(static_cast<unsigned char>(field.back()))) return false;
+  const auto same = [](char one, char c) {
+    return one == static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  };
+  return std::any_of(std::begin(words), std::end(words), [&](std::string_view word) {
+    return std::equal(word.begin(), word.end(), field.begin(), field.end(), same);
+  });
+}
+
 bool is_value(const std::string& field, DecimalMark decimal) {
   if (field_number(field, decimal) || iso_time(field)) return true;
   std::string small = field.substr(0, 5);
   for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return small == "nan" || small == "-nan" || small == "na" || small == "inf" || small == "-inf";
+  return small == "inf" || small == "-inf" || small == "+inf";
 }
 
 std::optional<Dialect> find_dialect(const std::vector<std::string>& lines, const TableSettings& settings,

@@ -25,7 +25,8 @@ class LineSplitter {
   LineSplitter();
   LineSplitter(const LineSplitter&) = delete;
   ~LineSplitter();
-  /// The fields, trimmed and without their quotes; valid until the next call.
+  /// The fields (an empty one between two separators, unless those are blanks), trimmed and without their
+  /// quotes; valid until the next call.
   const std::vector<std::string>& split(std::string_view line, Separator separator);
 
  private:
@@ -37,7 +38,9 @@ class LineSplitter {
 
 /// A field as a finite number with that decimal mark.
 std::optional<double> field_number(const std::string& field, DecimalMark decimal);
-/// True for a number (also not-a-number), or a date with a time.
+/// True for a field that says that it has no value: empty, "nan", "N/A", "null", "-" and the like.
+bool is_missing(std::string_view field);
+/// True for a number (also infinite), or a date with a time.
 bool is_value(const std::string& field, DecimalMark decimal);
 
 /// The dialect in which most of these lines are rows of numbers of equal length; `columns` becomes that

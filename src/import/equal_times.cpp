@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "import/missing_samples.h"
 #include "import/table_layout.h"
 
 namespace sandstroke {
@@ -13,19 +14,16 @@ void check_times(const Stroke& stroke, const std::vector<std::size_t>& lines, co
   const auto line = [&](std::size_t i) {
     return lines.empty() ? fmt::format("sample {}", i) : fmt::format("line {}", lines[i]);
   };
-  const auto location = [&](std::size_t i) {
-    return lines.empty() ? fmt::format("{}: sample {}", name, i) : fmt::format("{}:{}", name, lines[i]);
-  };
   for (std::size_t i = 1; i < stroke.size(); ++i) {
     if (stroke.time[i] < stroke.time[i - 1]) {
-      throw_input_error("{}: time {} s is earlier than {} s in {}; sort or correct them", location(i),
-                        stroke.time[i], stroke.time[i - 1], line(i - 1));
+      throw_input_error("{}: time {} s is earlier than {} s in {}; sort or correct them",
+                        sample_location(name, lines, i), stroke.time[i], stroke.time[i - 1], line(i - 1));
     }
     if (stroke.time[i] == stroke.time[i - 1] && !equal_allowed) {
       throw_input_error(
           "{}: time {} s is the same as in {}; set {} to drop (keep the first sample) or spread (space the "
           "samples evenly)",
-          location(i), stroke.time[i], line(i - 1), option_and_key("equal_times"));
+          sample_location(name, lines, i), stroke.time[i], line(i - 1), option_and_key("equal_times"));
     }
   }
 }

@@ -6,11 +6,20 @@
 #include "core/error.h"
 #include "core/input_file.h"
 #include "core/output_file.h"
+#include "import/foreign_text.h"
 #include "import/gcode.h"
 #include "import/gcode_words.h"
+#include "import/hpgl.h"
 #include "import/inkml.h"
+#include "import/json_rows.h"
 #include "import/mat.h"
+#include "import/mcap.h"
+#include "import/npy.h"
+#include "import/npz.h"
+#include "import/ros1_bag.h"
 #include "import/ros2_bag.h"
+#include "import/svg.h"
+#include "import/table_layout.h"
 #include "import/text_parts.h"
 #include "import/thr.h"
 #include "import/unipen.h"
@@ -29,22 +38,18 @@ struct KindNotRead {
 constexpr const char* as_csv = "save or export it as CSV";
 constexpr const char* unpack = "unpack it and name the file inside";
 constexpr KindNotRead kinds_not_read[] = {
-    {"#ROSBAG V", "", "a ROS 1 bag",
-     "convert it: rosbags-convert --src FILE.bag --dst FOLDER, and name the .db3 file in that folder"},
-    {"\x89MCAP0\r\n", "", "an MCAP file (ROS 2)", "convert it to a .db3: ros2 bag convert"},
+    {"#ROSBAG V", "", "a ROS 1 bag of another version than 2.0", "convert it: rosbag fix FILE.bag NEW.bag"},
+    {"#ROSRECORD V", "", "an old ROS 1 bag", "convert it: rosbag fix FILE.bag NEW.bag"},
+    {"\x89MCAP", "", "an MCAP file of another version than 0", "convert it to a .db3: ros2 bag convert"},
     {"PK\x03\x04", ".xlsx", "an Excel file (.xlsx)", as_csv},
     {"PK\x03\x04", ".xlsm", "an Excel file (.xlsm)", as_csv},
     {"PK\x03\x04", ".ods", "a spreadsheet (.ods)", as_csv},
-    {"PK\x03\x04", ".npz", "a NumPy archive (.npz)",
-     "save a table: numpy.savetxt('samples.csv', samples, delimiter=',', header='x,y,z')"},
     {"PK\x03\x04", "", "a zip archive", unpack},
     {"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", "", "an old Excel or Office file", as_csv},
     {"PAR1", "", "a Parquet file",
      "save it as CSV: pandas.read_parquet('FILE').to_csv('samples.csv', index=False)"},
     {"ARROW1", "", "a Feather file (Arrow)",
      "save it as CSV: pandas.read_feather('FILE').to_csv('samples.csv', index=False)"},
-    {"\x93NUMPY", "", "a NumPy file (.npy)",
-     "save a table: numpy.savetxt('samples.csv', numpy.load('FILE'), delimiter=',', header='x,y,z')"},
     {"\x89HDF\r\n\x1A\n", "", "an HDF5 file without a stroke from sandstroke",
      "save its columns as CSV: pandas.DataFrame({'x': x, 'y': y}).to_csv('samples.csv', index=False)"},
     {"%PDF", "", "a PDF", "name the file with the samples themselves"},
@@ -59,9 +64,19 @@ constexpr KindNotRead kinds_not_read[] = {
     {"7z\xBC\xAF", "", "a 7z archive", unpack},
     {"", ".pkl", "a Python pickle", "save a table: DataFrame.to_csv('samples.csv', index=False)"},
     {"", ".c3d", "a C3D file (motion capture)", "export its points as CSV"},
-    {"", ".svg", "an SVG drawing", "convert it to G-code for a plotter"},
-    {"", ".plt", "a plot in HPGL", "save it as G-code"},
-    {"", ".hpgl", "a plot in HPGL", "save it as G-code"},
+    {"HIERARCHY", "", "a BVH file (motion capture)", "export the positions of one joint as CSV"},
+    {"AutoCAD Binary DXF", "", "a DXF drawing", "save it as SVG (in Inkscape or LibreCAD)"},
+    {"", ".dxf", "a DXF drawing", "save it as SVG (in Inkscape or LibreCAD)"},
+    {"", ".dwg", "a DWG drawing", "save it as SVG (in LibreCAD or your CAD program)"},
+    {"%!PS", "", "a PostScript drawing", "save it as SVG (in Inkscape)"},
+};
+
+/// What Git keeps in the place of a file, whatever its ending.
+constexpr KindNotRead pointers[] = {
+    {"version https://git-lfs.github.com/spec/", "", "a pointer of Git LFS and not the file itself",
+     "get the file: git lfs pull"},
+    {"/annex/objects/", "", "a pointer of git-annex and not the file itself",
+     "get the file: git annex get FILE"},
 };
 
 bool has_ending(const fs::path& path, std::string_view ending) { return small_ending(path) == ending; }
@@ -73,27 +88,12 @@ std::string head_of(const fs::path& path) {
   return head;
 }
 
-void refuse_kinds_not_read(const fs::path& path, std::string_view head) {
-  for (const KindNotRead& kind : kinds_not_read)
+template <std::size_t N>
+void refuse(const KindNotRead (&kinds)[N], const fs::path& path, std::string_view head) {
+  for (const KindNotRead& kind : kinds)
     if (head.starts_with(kind.begin) && (kind.ending.empty() || has_ending(path, kind.ending)))
       throw_input_error("{}: is {}, which sandstroke cannot read; {}", path.string(), kind.name,
                         kind.way_out);
-}
-
-/// Refuses text that begins as XML or JSON, which other programs read. A script begins with [[segment]] or a
-/// name.
-void refuse_trees_of_text(const fs::path& path, std::string_view text) {
-  if (text.starts_with('<'))
-    throw_input_error("{}: is XML or HTML, but not InkML; {}", path.string(), as_csv);
-  const std::string_view inner = text.starts_with('[') ? without_blanks(text.substr(1)) : "";
-  const bool is_list =
-      !inner.empty() && std::string_view("{[-0123456789\"").find(inner[0]) != std::string_view::npos;
-  if (text.starts_with('{') || (is_list && !text.starts_with("[[")) || has_ending(path, ".json")) {
-    throw_input_error(
-        "{}: is JSON, which sandstroke cannot read; save it as CSV: "
-        "pandas.read_json('FILE').to_csv('samples.csv', index=False)",
-        path.string());
-  }
 }
 
 /// True for binary data, which has several zero bytes in a row. Tables may be in UTF-16, where every other
@@ -107,31 +107,53 @@ bool is_inkml(std::string_view text) {
          (text.find("<ink") != std::string_view::npos || text.find(":ink") != std::string_view::npos);
 }
 
-}  // namespace
+bool is_gcode(const fs::path& path, std::string_view text) {
+  for (const char* ending : {".gcode", ".gco", ".nc", ".ngc", ".tap"})
+    if (has_ending(path, ending)) return true;
+  return looks_like_gcode(text);
+}
 
-std::optional<SampleTable> read_known_format(const fs::path& path, const TableSettings& settings) {
+std::optional<SampleTable> read_format(const fs::path& path, const TableSettings& settings) {
   const std::string& part = settings.part;
   const bool pipe =
       path == "-" || (fs::exists(path) && !fs::is_regular_file(path) && !fs::is_directory(path));
   if (pipe) return {};
   const std::string head = head_of(path);
+  refuse(pointers, path, head);
   if (head.starts_with(std::string_view("SQLite format 3\0", 16))) return read_ros2_bag(path, part);
+  if (head.starts_with(mcap_magic)) return read_mcap(path, part);
+  if (head.starts_with(ros1_bag_magic)) return read_ros1_bag(path, part);
   if (head.starts_with("MATLAB ") || has_ending(path, ".mat")) return read_mat(path, part);
+  if (has_ending(path, ".npz")) return read_npz(path, part);
   if (!part.empty()) throw_input_error("{}: has no parts; leave out --part {}", path.string(), part);
-  refuse_kinds_not_read(path, head);
+  if (head.starts_with("\x93NUMPY")) return read_npy(path);
+  refuse(kinds_not_read, path, head);
   if (is_binary(head)) {
-    throw_input_error("{}: is neither text nor a binary format that sandstroke reads (ROS 2 bag, MATLAB); {}",
-                      path.string(), as_csv);
+    throw_input_error(
+        "{}: is neither text nor a binary format that sandstroke reads (bags of ROS, MCAP, MATLAB, NumPy); "
+        "{}",
+        path.string(), as_csv);
   }
   const std::string_view text = without_blanks(without_byte_order_mark(head));
   if (is_inkml(text)) return read_inkml(path);
+  if (looks_like_svg(text)) return read_svg(path);
   if (looks_like_unipen(text)) return read_unipen(path);
   if (has_ending(path, ".thr")) return read_thr(path);
-  for (const char* ending : {".gcode", ".gco", ".nc", ".ngc", ".tap"})
-    if (has_ending(path, ending)) return read_gcode(path, settings.pen_up);
-  if (looks_like_gcode(text)) return read_gcode(path, settings.pen_up);
-  refuse_trees_of_text(path, text);
+  if (is_gcode(path, text)) return read_gcode(path, settings.pen_up, settings.pen_down);
+  if (looks_like_hpgl(text) || has_ending(path, ".hpgl")) return read_hpgl(path);
+  if (!JsonRows::begin(text)) refuse_foreign_text(path, text);
   return {};
+}
+
+}  // namespace
+
+std::optional<SampleTable> read_known_format(const fs::path& path, const TableSettings& settings) {
+  std::optional<SampleTable> table = read_format(path, settings);
+  const bool names_pen = !settings.pen_up.empty() || !settings.pen_down.empty();
+  if (table && names_pen && !is_gcode(path, head_of(path)))
+    throw_input_error("{}: its format tells itself where the pen is up; leave out {}", path.string(),
+                      option_and_key(settings.pen_up.empty() ? "pen_down" : "pen_up"));
+  return table;
 }
 
 }  // namespace sandstroke

@@ -3,16 +3,16 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <set>
 
-#include "core/elementary.h"
 #include "core/error.h"
 #include "core/input_file.h"
+#include "import/gcode_arc.h"
+#include "import/gcode_bounds.h"
+#include "import/gcode_codes.h"
 #include "import/gcode_path.h"
-#include "import/gcode_words.h"
+#include "import/gcode_pen.h"
+#include "import/gcode_program.h"
 #include "import/sample_checks.h"
-#include "import/table_layout.h"
 #include "import/text_parts.h"
 
 namespace sandstroke {
@@ -20,66 +20,46 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using std::numbers::pi;
-
-/// An arc in the plane. Z and the radius change evenly along it.
-struct GcodeArc {
-  Vector2d centre;
-  double radius = 0.0, end_radius = 0.0;  // mm
-  double start = 0.0, sweep = 0.0;        // rad, above 0 counterclockwise
-
-  double chords() const {
-    const double fraction = std::max(gcode_arc_fraction, gcode_arc_tolerance / std::max(radius, end_radius));
-    const double step = 2.0 * elementary::acos(std::max(1.0 - fraction, 0.0));
-    return std::ceil(std::abs(sweep) / step);
-  }
-  double length(double climb) const {
-    return elementary::hypot(0.5 * (radius + end_radius) * sweep, end_radius - radius, climb);
-  }
-  Vector2d at(double fraction) const {
-    const double angle = start + fraction * sweep;
-    return centre +
-           std::lerp(radius, end_radius, fraction) * Vector2d(elementary::cos(angle), elementary::sin(angle));
-  }
-};
 
 class GcodeReader {
  public:
-  GcodeReader(const std::string& name, const std::string& pen_up)
-      : name_(name), pen_up_text_(pen_up), pen_up_(gcode_words(pen_up, "pen_up")) {
-    if (!pen_up.empty() && pen_up_.m.size() != 1)
-      throw_input_error(
-          "pen_up = \"{}\" is not a G-code word that lifts a pen; give a word such as \"M280 S90\"", pen_up);
-  }
+  GcodeReader(const std::string& name, const std::string& pen_up, const std::string& pen_down)
+      : name_(name), pen_(pen_up, pen_down), program_(name) {}
 
   void take_line(std::string_view text, std::size_t number) {
     line_ = number;
-    const GcodeWords words = gcode_words(text, location());
-    take_speed(words);
+    bounds_.take(text);
+    const std::optional<GcodeWords> words = program_.words_to_follow(text, number);
+    if (!words) return;
+    take_speed(*words);
     bool moves = true;
-    for (const int code : words.g) moves = take_g(code, words) && moves;
-    take_m(words);
-    if (!moves || !words.has_any_of("XYZIJR")) return;
+    for (const int code : words->g) moves = take_g(code, *words) && moves;
+    pen_.take(*words, number);
+    if (words->own != GcodeWords::Values{}) pass_over_axes_of(*words);
+    if (moves && words->has_any_of("ABCUVW")) program_.pass_over_rotary_axes(number);
+    if (!moves || !words->has_any_of("XYZIJR")) return;
+    if (words->has_any_of("Z")) height_known_ = true;
     if (motion_ >= 2) {
-      arc(words);
-    } else if (words.has_any_of("XYZ")) {
-      const Vector3d end = target(words);
-      if (!path_.samples.empty() || words.has_any_of("XY")) add(end, (end - position_).norm());
+      arc(*words);
+    } else if (words->has_any_of("XYZ")) {
+      const Vector3d end = target(*words);
+      if (!path_.samples.empty() || words->has_any_of("XY")) add(end, (end - position_).norm());
       position_ = end;
     }
   }
 
-  SampleTable table() const {
-    if (pen_up_.m.empty() && servo_angles_.size() > 1)
-      throw_input_error(
-          "{}:{}: M{} moves a pen to S {}, but it is not known which of them lifts it; set {} to the one "
-          "that lifts, such as \"M{} S{}\"",
-          name_, servo_line_, servo_ / 10, fmt::join(servo_angles_, " and "), option_and_key("pen_up"),
-          servo_ / 10, *servo_angles_.rbegin());
+  SampleTable table() {
+    pen_.check_known(name_, std::any_of(path_.samples.begin(), path_.samples.end(),
+                                        [](const GcodeSample& sample) { return sample.along_z; }));
+    path_.pen_word = pen_.word();
+    path_.pen_is_named = pen_.is_named();
     SampleTable table = table_of_gcode(path_, name_);
-    if (!pen_up_.m.empty() && !pen_lifts_)
-      table.warnings.push_back(fmt::format("{}: no line has {}, so the pen never lifts; correct {}", name_,
-                                           pen_up_text_, option_and_key("pen_up")));
+    for (const auto& warnings : {pen_.warnings(name_), program_.warnings()})
+      table.warnings.insert(table.warnings.end(), warnings.begin(), warnings.end());
+    Eigen::AlignedBox3d all;
+    for (const GcodeSample& sample : path_.samples) all.extend(sample.position);
+    if (const auto sentence = bounds_.disagreement(box_of_gcode(table), all, scale_, name_))
+      table.warnings.push_back(*sentence);
     return table;
   }
 
@@ -88,58 +68,71 @@ class GcodeReader {
 
   /// True if the line's other words still belong to a motion.
   bool take_g(int code, const GcodeWords& words) {
-    switch (code) {
-      case 0:
-      case 10:
-      case 20:
-      case 30:
-        motion_ = code / 10;
+    switch (role_of_g(code, words, location())) {
+      case GcodeRole::read:
+        return read_g(code, words);
+      case GcodeRole::keeps_path:
         return true;
-      case 170:
-      case 180:
-      case 190:
-        plane_ = code / 10;
-        return true;
-      case 200:
-      case 210:
-        scale_ = code == 200 ? 25.4 : 1.0;
-        return true;
-      case 900:
-      case 910:
-        relative_ = code == 910;
-        return true;
-      case 901:
-      case 911:
-        centre_relative_ = code == 911;
-        return true;
-      case 920:
-        for (int axis = 0; axis < 3; ++axis)
-          if (const auto& value = words["XYZ"[axis]]) origin_[axis] = position_[axis] - *value * scale_;
-        return false;
-      case 921:
-        origin_.setZero();
-        return false;
-      case 40:
-      case 100:
-      case 280:
-      case 281:
-      case 300:
-      case 301:  // the tool waits, or goes where only the machine knows
-        path_.passed_over.insert(code);
-        return false;
-      case 400:
-      case 430:
-      case 490:
-      case 540:
-      case 610:
-      case 640:
-      case 800:
-      case 940:
-        return true;
-      default:
-        throw_input_error("{}: G{:g} is not supported; write the path with G0 to G3", location(),
-                          code / 10.0);
+      case GcodeRole::goes_home:
+        go_home(code, words);
+        break;
+      case GcodeRole::calls:
+        program_.note_call(gcode_word_text('G', code), line_);
+        break;
+      case GcodeRole::waits:
+        break;
     }
+    path_.passed_over.insert({'G', code});
+    return false;
+  }
+
+  bool read_g(int code, const GcodeWords& words) {
+    if (code <= 30) {
+      motion_ = code / 10;
+    } else if (code <= 190) {
+      plane_ = code / 10;
+    } else if (code <= 210) {
+      scale_ = code == 200 ? 25.4 : 1.0;
+    } else if (code < 600) {
+      choose_coordinates(code);
+    } else if (code == 900 || code == 910) {
+      relative_ = code == 910;
+    } else if (code == 901 || code == 911) {
+      centre_relative_ = code == 911;
+    } else if (code == 920) {
+      for (int axis = 0; axis < 3; ++axis)
+        if (const auto& value = words["XYZ"[axis]]) origin_[axis] = position_[axis] - *value * scale_;
+      return false;
+    } else {
+      origin_.setZero();
+      return false;
+    }
+    return true;
+  }
+
+  /// G54 to G59.3: only the machine knows how far apart these coordinates are.
+  void choose_coordinates(int code) {
+    if (coordinates_ != code && !path_.samples.empty())
+      throw_input_error(
+          "{}: {} changes to coordinates whose distance from the earlier ones is not in the file; split the "
+          "file before this line",
+          location(), gcode_word_text('G', code));
+    coordinates_ = code;
+  }
+
+  void go_home(int code, const GcodeWords& words) {
+    const auto is_named = [&](char letter) {
+      return words[letter].has_value() || words.axes.find(letter) != std::string::npos;
+    };
+    const bool all = code != 530 && !is_named('X') && !is_named('Y') && !is_named('Z');
+    if (path_.samples.empty()) return;  // where the path begins is not known either
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!all && !is_named("XYZ"[axis])) continue;
+      position_[axis] = 0.0;
+      height_known_ = height_known_ && axis != 2;
+      goes_home_ = true;
+    }
+    if (goes_home_) path_.homes.insert(line_);
   }
 
   void take_speed(const GcodeWords& words) {
@@ -151,40 +144,10 @@ class GcodeReader {
     }
   }
 
-  void take_m(const GcodeWords& words) {
-    const bool of_spindle = std::all_of(words.m.begin(), words.m.end(),
-                                        [](int code) { return code == 30 || code == 40 || code == 50; });
-    const auto& power = words['S'];
-    if (power && of_spindle && !std::count(words.g.begin(), words.g.end(), 40)) power_ = *power;
-    for (const int code : words.m) {
-      take_servo(code, words);
-      if (code == 30 || code == 40) {
-        spindle_ = true;
-        path_.pen_word = gcode_spindle;
-      }
-      if (code == 50) spindle_ = false;
-    }
+  void pass_over_axes_of(const GcodeWords& words) {
+    const auto has = [&](char letter) { return GcodeWords::of(words.own, letter).has_value(); };
+    if (has('X') || has('Y') || has('Z')) path_.passed_over.insert({'M', words.m.back()});
   }
-  void take_servo(int code, const GcodeWords& words) {
-    if (!pen_up_.m.empty()) {
-      if (code != pen_up_.m.front()) return;
-      bool is_up = true;
-      for (std::size_t i = 0; i < words.value.size(); ++i)
-        is_up = is_up && (!pen_up_.value[i] || words.value[i] == pen_up_.value[i]);
-      spindle_ = !is_up;
-      path_.pen_word = pen_up_text_;
-      pen_lifts_ = pen_lifts_ || is_up;
-      return;
-    }
-    constexpr double most_angle = 180.0;  // M300 with more is a tone
-    if ((code != 2800 && code != 3000) || !words['S'] || *words['S'] > most_angle) return;
-    if (servo_angles_.empty()) {
-      servo_ = code;
-      servo_line_ = line_;
-    }
-    if (code == servo_) servo_angles_.insert(*words['S']);
-  }
-  bool pen_down() const { return spindle_ && power_ != 0.0; }
 
   /// The end point of a motion.
   Vector3d target(const GcodeWords& words) const {
@@ -192,8 +155,8 @@ class GcodeReader {
     for (int axis = 0; axis < 3; ++axis)
       if (const auto& value = words["XYZ"[axis]])
         end[axis] = *value * scale_ + (relative_ ? position_ : origin_)[axis];
-    if (end.cwiseAbs().maxCoeff() <= most) return end;
-    throw_input_error("{}: the move ends more than {:g} mm away; correct it", location(), most);
+    if (end.cwiseAbs().maxCoeff() <= gcode_farthest) return end;
+    throw_input_error("{}: the move ends more than {:g} mm away; correct it", location(), gcode_farthest);
   }
 
   void arc(const GcodeWords& words) {
@@ -202,28 +165,15 @@ class GcodeReader {
     if (words['P'] && *words['P'] != 1.0)
       throw_input_error("{}: the arc has several turns (P); write one line for each turn", location());
     const Vector3d begin = position_, end = target(words);
-    GcodeArc curve;
-    curve.centre =
-        words['R'] ? centre_by_radius(end.head<2>(), *words['R'] * scale_) : centre_by_offset(words);
-    const Vector2d from = begin.head<2>() - curve.centre, to = end.head<2>() - curve.centre;
-    curve.radius = from.norm();
-    curve.end_radius = to.norm();
-    if (!(curve.radius >= 1e-6 && curve.radius <= most))
-      throw_input_error("{}: the arc's radius is {:g} mm; correct I and J, or R", location(), curve.radius);
-    const double off = std::abs(curve.radius - curve.end_radius);
-    if (!(off <= 0.5 && off <= std::max(0.005, 0.001 * curve.radius))) {  // the limits of Grbl and LinuxCNC
-      throw_input_error(
-          "{}: the arc begins {:g} mm from its centre and ends {:g} mm from it; correct X, Y, I or J",
-          location(), curve.radius, curve.end_radius);
-    }
-    curve.start = elementary::atan2(from.y(), from.x());
-    curve.sweep = elementary::atan2(to.y(), to.x()) - curve.start;
-    constexpr double nothing = 5e-7;  // rad; a smaller sweep means a whole turn
-    if (motion_ == 3 && curve.sweep <= nothing) curve.sweep += 2.0 * pi;
-    if (motion_ == 2 && curve.sweep >= -nothing) curve.sweep -= 2.0 * pi;
+    const bool clockwise = motion_ == 2;
+    const Vector2d from = begin.head<2>(), to = end.head<2>();
+    const Vector2d centre = words['R']
+                                ? centre_by_radius(from, to, *words['R'] * scale_, clockwise, location())
+                                : centre_by_offset(words);
+    const GcodeArc curve = arc_between(from, to, centre, clockwise, location());
     const double count = curve.chords(), climb = end.z() - begin.z();
     check_curve_points(count, path_.samples.size(), name_, line_);
-    if (path_.samples.empty()) add(begin, 0.0);
+    if (path_.samples.empty() || goes_home_) add(begin, 0.0);
     for (double k = 1.0; k <= count; ++k) {
       Vector3d point = end;
       if (k < count) point << curve.at(k / count), begin.z() + climb * k / count;
@@ -240,69 +190,65 @@ class GcodeReader {
     return centre;
   }
 
-  /// radius > 0 means the shorter of the two arcs.
-  Vector2d centre_by_radius(const Vector2d& end, double radius) const {
-    const Vector2d way = end - position_.head<2>();
-    const double half = 0.5 * way.norm();
-    if (half == 0.0) throw_input_error("{}: the arc with R ends where it begins; give I and J", location());
-    if (half > std::abs(radius) * (1.0 + 1e-4) + 0.005)
-      throw_input_error("{}: R is {:g} mm, too small for an arc between points {:g} mm apart; correct it",
-                        location(), std::abs(radius), 2.0 * half);
-    const double height = std::sqrt(std::max(radius * radius - half * half, 0.0));
-    const Vector2d left = Vector2d(-way.y(), way.x()) / (2.0 * half);
-    const bool centre_left = (motion_ == 3) == (radius > 0.0);
-    return position_.head<2>() + 0.5 * way + (centre_left ? height : -height) * left;
-  }
-
+  /// Adds the end of a move of that length. The first move, and the first one from home, come from a place
+  /// that is not known: the path begins, or goes on, where they end.
   void add(const Vector3d& point, double length) {
     constexpr double least = 1e-6;  // mm; a shorter move takes no time that shows in a sample
-    if (!path_.samples.empty() && length < least) return;
-    if (path_.samples.empty() && relative_ && motion_ < 2 && length > 0.0) keep(position_, 0.0);
-    keep(point, path_.samples.empty() ? 0.0 : length);
+    const bool begins = path_.samples.empty() || goes_home_;
+    if (begins && relative_ && motion_ < 2 && length > 0.0) keep(position_, 0.0);
+    if (goes_home_) length = (point - path_.samples.back().position).norm();
+    if (!path_.samples.empty() && length < least)
+      goes_home_ = false;
+    else
+      keep(point, path_.samples.empty() ? 0.0 : length);
   }
+
   void keep(const Vector3d& point, double length) {
-    const bool down = pen_down() && motion_ != 0;
+    const bool down = pen_.down(motion_) && !goes_home_;
     bool along_xy = false, along_z = false;
     if (!path_.samples.empty()) {
       GcodeSample& last = path_.samples.back();
-      along_xy = point.head<2>() != last.position.head<2>();
-      along_z = point.z() != last.position.z();
+      along_xy = !goes_home_ && point.head<2>() != last.position.head<2>();
+      along_z = !goes_home_ && point.z() != last.position.z();
       last.lifts = !down;
       last.down = last.down || down;
     }
-    path_.draws_rapidly = path_.draws_rapidly || (motion_ == 0 && along_xy);
-    path_.samples.push_back({point, line_, length, feed_, down, false, along_xy, along_z});
+    if (along_xy) pen_.note_move(motion_);
+    path_.moves_rapidly = path_.moves_rapidly || (motion_ == 0 && along_xy);
+    path_.draws_rapidly = path_.draws_rapidly || (motion_ == 0 && along_xy && down);
+    path_.samples.push_back(
+        {point, line_, length, feed_, down, false, along_xy, along_z, goes_home_, height_known_});
+    goes_home_ = false;
   }
 
-  static constexpr double most = 1e12;  // mm
   const std::string& name_;
-  const std::string pen_up_text_;
-  const GcodeWords pen_up_;  // empty: not named
-  int servo_ = 0;            // the M word that moves a pen
-  std::size_t servo_line_ = 0;
-  std::set<double> servo_angles_;
-  bool pen_lifts_ = false;  // a line had the words of pen_up_
+  GcodePen pen_;
+  GcodeProgram program_;
+  GcodeBounds bounds_;
   std::size_t line_ = 0;
-  int motion_ = 0, plane_ = 17;
+  int motion_ = 0, plane_ = 17, coordinates_ = 540;
   double scale_ = 1.0;  // mm
   bool relative_ = false, centre_relative_ = true;
-  bool spindle_ = false;
-  double power_ = 1.0, feed_ = 0.0;
+  bool goes_home_ = false;    // before the next move
+  bool height_known_ = true;  // no home has changed Z since it was given
+  double feed_ = 0.0;
   Vector3d position_ = Vector3d::Zero(), origin_ = Vector3d::Zero();  // mm
   GcodePath path_;
 };
 
 }  // namespace
 
-SampleTable parse_gcode(std::string_view text, const std::string& name, const std::string& pen_up) {
+SampleTable parse_gcode(std::string_view text, const std::string& name, const std::string& pen_up,
+                        const std::string& pen_down) {
   text = without_byte_order_mark(text);
-  GcodeReader reader(name, pen_up);
+  GcodeReader reader(name, pen_up, pen_down);
   for (std::size_t number = 1; !text.empty(); ++number) reader.take_line(cut_line(text), number);
   return finite_samples(reader.table(), name);
 }
 
-SampleTable read_gcode(const std::filesystem::path& path, const std::string& pen_up) {
-  return parse_gcode(read_text_file(path, most_sample_text_bytes), path.string(), pen_up);
+SampleTable read_gcode(const std::filesystem::path& path, const std::string& pen_up,
+                       const std::string& pen_down) {
+  return parse_gcode(read_text_file(path, most_sample_text_bytes), path.string(), pen_up, pen_down);
 }
 
 }  // namespace sandstroke

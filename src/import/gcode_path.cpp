@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "import/gcode_pen.h"
 
 namespace sandstroke {
 namespace {
@@ -21,14 +22,14 @@ bool z_lifts_a_pen(const Samples& samples) {
   return moves;
 }
 
-std::vector<bool> pen_is_down(const GcodePath& path, bool by_z) {
+std::vector<bool> pen_is_down(const GcodePath& path, bool by_z, bool has_z) {
   const bool has_word = !path.pen_word.empty();
   double lowest = std::numeric_limits<double>::infinity();  // Z of a move along X or Y
   for (const GcodeSample& sample : path.samples)
-    if (sample.along_xy) lowest = std::min(lowest, sample.position.z());
+    if (sample.along_xy && sample.height_known) lowest = std::min(lowest, sample.position.z());
   std::vector<bool> down;
   for (const GcodeSample& sample : path.samples)
-    down.push_back((!has_word || sample.down) &&
+    down.push_back((!has_word || sample.down) && (!has_z || sample.height_known) &&
                    (!by_z || sample.position.z() < 0.0 || sample.position.z() <= lowest));
   return down;
 }
@@ -45,6 +46,29 @@ std::vector<double> times_of(const Samples& samples) {
   return times;
 }
 
+std::string description_of(const GcodePath& path, std::size_t points, bool by_z, bool has_z) {
+  std::string text = fmt::format("G-code: {} points", points);
+  if (by_z)
+    text += ", the pen is up where Z is high";
+  else if (has_z)
+    text += ", Z is a height";
+  if (path.pen_is_named)
+    text += fmt::format(", {} moves the pen", path.pen_word);
+  else if (!path.pen_word.empty())
+    text += fmt::format(", the pen is down after {}", path.pen_word);
+  if (path.pen_word.empty() && path.moves_rapidly && !by_z)
+    text += ", G0 draws too, because nothing lifts the pen";
+  else if (path.draws_rapidly && !by_z)
+    text += ", G0 draws too where the pen is down";
+  std::vector<std::string> passed;
+  for (const auto& [letter, code] : path.passed_over) passed.push_back(gcode_word_text(letter, code));
+  if (!passed.empty()) text += fmt::format(", {} skipped", fmt::join(passed, ", "));
+  if (!path.homes.empty())
+    text += fmt::format(", nothing is drawn on the way home ({} times, first in line {})", path.homes.size(),
+                        *path.homes.begin());
+  return text;
+}
+
 }  // namespace
 
 SampleTable table_of_gcode(const GcodePath& path, const std::string& name) {
@@ -55,7 +79,7 @@ SampleTable table_of_gcode(const GcodePath& path, const std::string& name) {
   const bool by_z = z_lifts_a_pen(samples);
   const bool has_z = by_z || std::any_of(samples.begin(), samples.end(),
                                          [](const auto& sample) { return sample.position.z() != 0.0; });
-  const std::vector<bool> down = pen_is_down(path, by_z);
+  const std::vector<bool> down = pen_is_down(path, by_z, has_z);
   const std::vector<double> time = times_of(samples);
 
   SampleTable table;
@@ -63,6 +87,7 @@ SampleTable table_of_gcode(const GcodePath& path, const std::string& name) {
   table.columns = {{"x", "mm", {}}, {"y", "mm", {}}};
   if (has_z) table.columns.push_back({"z", "mm", {}});
   if (!time.empty()) table.columns.push_back({"time", "s", {}});
+  const bool lifts = by_z || has_word || !path.homes.empty();
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (!down[i]) continue;
     const Vector3d& at = samples[i].position;
@@ -71,30 +96,28 @@ SampleTable table_of_gcode(const GcodePath& path, const std::string& name) {
     if (has_z) table.columns[2].values.push_back(at.z());
     if (!time.empty()) table.columns.back().values.push_back(time[i]);
     table.lines.push_back(samples[i].line);
-    if (by_z || has_word)
-      table.lifts.push_back((has_word && samples[i].lifts) || (i + 1 < down.size() && !down[i + 1]));
+    const bool goes_home = i + 1 < samples.size() && samples[i + 1].from_home;
+    if (lifts)
+      table.lifts.push_back((has_word && samples[i].lifts) || goes_home ||
+                            (i + 1 < down.size() && !down[i + 1]));
   }
-  const bool is_spindle = path.pen_word == gcode_spindle;
   if (table.size() == 0)
     throw_input_error(
         "{}: the pen is never down; {}", name,
-        has_word && !is_spindle
+        path.pen_is_named
             ? fmt::format("pen_up = \"{}\" lifts it all the time; name the other position", path.pen_word)
             : "lower it with M3 (S above 0) or Z before a G1 move");
-
-  std::vector<std::string> passed;
-  for (const int code : path.passed_over) passed.push_back(fmt::format("G{:g}", code / 10.0));
-  table.description =
-      fmt::format("G-code: {} points{}{}{}", table.size(),
-                  by_z    ? ", the pen is up where Z is high"
-                  : has_z ? ", Z is a height"
-                          : "",
-                  is_spindle                    ? ", the pen is down after M3"
-                  : has_word                    ? fmt::format(", the pen is up after {}", path.pen_word)
-                  : path.draws_rapidly && !by_z ? ", G0 draws too, because nothing lifts the pen"
-                                                : "",
-                  passed.empty() ? "" : fmt::format(", {} skipped", fmt::join(passed, ", ")));
+  table.description = description_of(path, table.size(), by_z, has_z);
   return table;
+}
+
+Eigen::AlignedBox3d box_of_gcode(const SampleTable& table) {
+  Eigen::AlignedBox3d box;
+  const bool has_z = table.columns.size() > 2 && table.columns[2].name == "z";
+  for (std::size_t i = 0; i < table.size(); ++i)
+    box.extend(Vector3d(table.columns[0].values[i], table.columns[1].values[i],
+                        has_z ? table.columns[2].values[i] : 0.0));
+  return box;
 }
 
 }  // namespace sandstroke

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "import/sample_table.h"
@@ -16,17 +17,19 @@ struct GcodeSample {
   double length, feed;     // of the move to here: mm, mm/s; 0: no speed was given
   bool down, lifts;        // according to M words
   bool along_xy, along_z;  // directions of the move to here
+  bool from_home;          // the tool comes from home, which nobody knows: nothing is drawn on the way
+  bool height_known;       // false: Z went home, and was not given since
 };
-
-/// GcodePath::pen_word of an engraver, with M3 and M5, or S.
-inline constexpr const char* gcode_spindle = "M3";
 
 /// The path along which a program of G-code leads its tool.
 struct GcodePath {
   std::vector<GcodeSample> samples;
   std::string pen_word;        ///< lifts or lowers the pen: "M3", "M280 S90"; empty: no word does
-  bool draws_rapidly = false;  ///< G0 moves along X or Y
-  std::set<int> passed_over;   ///< G words that were passed over, times 10
+  bool pen_is_named = false;   ///< by the user
+  bool moves_rapidly = false;  ///< G0 moves along X or Y
+  bool draws_rapidly = false;  ///< also with the pen down
+  std::set<std::pair<char, int>> passed_over;  ///< words: letter, and number times 10
+  std::set<std::size_t> homes;                 ///< lines at which the tool goes home from a path
 };
 
 /// How far the tip may be off lines and corners. The chords of usual arcs have no corners
@@ -36,5 +39,8 @@ inline constexpr double gcode_line_tolerance = 0.01;  // mm
 /// A table of the samples at which the pen is down: according to M words, and to Z if it only moves by
 /// itself. Error: input; `name` is the file's.
 SampleTable table_of_gcode(const GcodePath& path, const std::string& name);
+
+/// The box around the points of such a table [mm].
+Eigen::AlignedBox3d box_of_gcode(const SampleTable& table);
 
 }  // namespace sandstroke

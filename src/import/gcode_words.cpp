@@ -31,10 +31,45 @@ std::string bare_gcode(std::string_view line) {
   return for_the_machine ? "" : bare.substr(bare.starts_with('/') ? 1 : 0);
 }
 
-/// True for M words that a message or a file's name follows.
-bool is_followed_by_text(double m) {
-  const auto with_text = {16.0, 23.0, 28.0, 30.0, 32.0, 33.0, 117.0, 118.0, 928.0};
-  return std::find(with_text.begin(), with_text.end(), m) != with_text.end();
+bool is_one_of(std::initializer_list<int> codes, int code) {
+  return std::find(codes.begin(), codes.end(), code) != codes.end();
+}
+
+/// True for M words that a message or a file's name always follows.
+bool is_followed_by_text(int m) { return is_one_of({160, 230, 280, 320, 330, 1170, 1180, 9280}, m); }
+
+/// True for M words of RS-274 and of controls like it, which leave coordinates, F and S to the line's motion
+/// and spindle. Others (of Marlin, Klipper, RepRap) are commands of their own, with words of their own.
+bool leaves_words_to_the_line(int m) {
+  return (m >= 0 && m <= 140) || is_one_of({300, 600, 970, 980, 990}, m);
+}
+
+/// True if the last G word may have letters without a number: G28 X Y.
+bool goes_home(const GcodeWords& words) {
+  return !words.g.empty() && is_one_of({280, 281, 290, 300, 320, 330, 340, 1610, 1620}, words.g.back());
+}
+
+/// "SUB" of "O100SUB", "O<NAME>SUB"; empty for a number alone.
+std::string control_of(std::string_view o_word) {
+  std::string_view rest = o_word.substr(1);
+  if (rest.starts_with('<'))
+    cut_before(rest, '>');
+  else
+    rest.remove_prefix(std::min(rest.find_first_not_of("0123456789"), rest.size()));
+  const auto is_letter = [](char c) { return c >= 'A' && c <= 'Z'; };
+  const std::string word(rest.begin(), std::find_if_not(rest.begin(), rest.end(), is_letter));
+  return word.size() > 1 ? word : "";
+}
+
+/// The number of a G or M word, times 10.
+int code_of(char letter, double number, std::string_view text, const std::string& location) {
+  const double most = letter == 'G' ? 999.9 : 99999.0, code = 10.0 * number;
+  if (!(number >= 0.0 && number <= most) || std::signbit(number) ||
+      std::abs(code - std::round(code)) > 1e-6 * std::max(code, 1.0))
+    throw_input_error(
+        "{}: {}{} is no {} word, whose number is 0 to {:g} with at most one decimal; correct or remove it",
+        location, letter, text, letter, std::floor(most));
+  return static_cast<int>(std::lround(code));
 }
 
 }  // namespace
@@ -44,32 +79,57 @@ bool GcodeWords::has_any_of(std::string_view letters) const {
                      [this](char letter) { return (*this)[letter].has_value(); });
 }
 
+bool GcodeWords::has_g(int code) const { return std::find(g.begin(), g.end(), code) != g.end(); }
+
 GcodeWords gcode_words(std::string_view line, const std::string& location) {
   GcodeWords words;
   const std::string bare = bare_gcode(line);
+  if (bare.starts_with('O')) words.control = control_of(bare);
+  if (!words.control.empty()) return words;
+  GcodeWords::Values* values = &words.value;
   for (std::string_view rest = bare; !rest.empty();) {
     const char letter = rest[0];
     rest.remove_prefix(rest.size() > 1 && rest[1] == '+' ? 2 : 1);
     double number = 0.0;
     const auto [end, failure] =
         std::from_chars(rest.data(), rest.data() + rest.size(), number, std::chars_format::fixed);
-    if (letter < 'A' || letter > 'Z' || failure != std::errc() || !std::isfinite(number)) {
-      if (!words.m.empty()) return words;  // M117 and others are followed by text
-      throw_input_error("{}: '{}' is not a word of G-code (a letter and a number); correct or remove it",
-                        location, fmt::format("{}{}", letter, rest.substr(0, 20)));
+    const bool is_letter = letter >= 'A' && letter <= 'Z';
+    if (!is_letter || failure != std::errc() || !std::isfinite(number)) {
+      if (is_letter && goes_home(words) && (rest.empty() || (rest[0] >= 'A' && rest[0] <= 'Z'))) {
+        words.axes += letter;
+        continue;
+      }
+      if (words.m.empty())
+        throw_input_error("{}: '{}' is not a word of G-code (a letter and a number); correct or remove it",
+                          location, fmt::format("{}{}", letter, rest.substr(0, 20)));
+      words.has_text = true;
+      if (words.m.back() == 300) words.m.pop_back();  // Marlin deletes the file of that name
+      return words;
     }
-    rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
-    if (letter == 'G' || letter == 'M') {
-      const double code = std::clamp(number, 0.0, 1e6);
-      if (letter == 'M' && is_followed_by_text(code)) return words;
-      auto& codes = letter == 'G' ? words.g : words.m;
-      codes.push_back(static_cast<int>(std::lround(10.0 * code)));
+    const std::string_view text = rest.substr(0, static_cast<std::size_t>(end - rest.data()));
+    rest.remove_prefix(text.size());
+    if (letter == 'G') {
+      words.g.push_back(code_of(letter, number, text, location));
+      values = &words.value;
+    } else if (letter == 'M') {
+      const int code = code_of(letter, number, text, location);
+      words.has_text = is_followed_by_text(code);
+      if (words.has_text) return words;
+      words.m.push_back(code);
+      values = leaves_words_to_the_line(code) ? &words.value : &words.own;
     } else {
-      words.value[static_cast<std::size_t>(letter - 'A')] = number;
+      std::optional<double>& value = (*values)[static_cast<std::size_t>(letter - 'A')];
+      if (value && *value != number && values == &words.value &&
+          std::string_view("XYZIJRF").find(letter) != std::string_view::npos)
+        throw_input_error("{}: {} is given twice, as {:g} and {:g}; write two lines, or remove one", location,
+                          letter, *value, number);
+      value = number;
     }
   }
   return words;
 }
+
+std::string gcode_word_text(char letter, int code) { return fmt::format("{}{:g}", letter, code / 10.0); }
 
 bool looks_like_gcode(std::string_view text) {
   while (!text.empty()) {
@@ -77,9 +137,8 @@ bool looks_like_gcode(std::string_view text) {
     if (line.find_first_of(",\t") != std::string_view::npos) continue;
     try {
       const GcodeWords words = gcode_words(line, "");
-      const auto typical = {0, 10, 20, 30, 170, 200, 210, 280, 900, 910, 920};
-      const auto is_typical = [&](int code) {
-        return std::find(typical.begin(), typical.end(), code) != typical.end();
+      const auto is_typical = [](int code) {
+        return is_one_of({0, 10, 20, 30, 170, 200, 210, 280, 900, 910, 920}, code);
       };
       if (std::any_of(words.g.begin(), words.g.end(), is_typical)) return true;
     } catch (const Error&) {

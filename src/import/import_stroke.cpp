@@ -2,9 +2,12 @@
 
 #include <optional>
 
+#include "core/error.h"
 #include "core/input_file.h"
 #include "import/formats.h"
+#include "import/joined_clock.h"
 #include "import/merge_strokes.h"
+#include "import/table_layout.h"
 #include "import/text_table.h"
 
 namespace sandstroke {
@@ -20,6 +23,7 @@ TableSettings settings_of_second(const TableSettings& settings) {
   second.time_unit = settings.merge_time_unit;
   second.rate = settings.merge_rate;
   second.equal_times = settings.equal_times;
+  second.missing = settings.missing;
   second.force = settings.force;
   second.force_unit = settings.force_unit;
   second.force_sign = settings.force_sign;
@@ -31,10 +35,19 @@ SampleTable read_samples(const fs::path& path, const TableSettings& settings,
                          const std::optional<Eigen::Matrix3d>& of_first = {}) {
   if (path != "-")
     if (std::optional<SampleTable> samples = read_known_format(path, settings)) return std::move(*samples);
+  if (!settings.pen_down.empty())
+    throw_input_error("{}: is a table of text, in which pen_down has no meaning; give {} for G-code only",
+                      samples_name(path), option_and_key("pen_down"));
   InputFile file(path == "-" ? "/dev/stdin" : path, InputFile::Pipe::taken);
   TextTable table(samples_name(path), settings, of_first);
   for (std::string_view part = file.next_block(); !part.empty(); part = file.next_block()) table.read(part);
   return table.take();
+}
+
+ImportedStroke stroke_of(SampleTable table, const TableSettings& settings, const std::string& name,
+                         const std::optional<Eigen::Matrix3d>& of_first = {}) {
+  join_clock(table, table_layout(table.columns, settings, name, of_first), name);
+  return stroke_of_table(table, settings, name, of_first);
 }
 
 }  // namespace
@@ -50,13 +63,15 @@ std::vector<fs::path> sample_files(const fs::path& path, const TableSettings& se
 
 ImportedStroke import_stroke(const fs::path& path, const TableSettings& settings) {
   TableSettings of_first = settings;
-  if (!settings.merge.empty()) of_first.force = of_first.orientation = "";
-  ImportedStroke first = stroke_of_table(read_samples(path, of_first), of_first, samples_name(path));
+  if (!settings.merge.empty())
+    for (std::string* columns : {&of_first.force, &of_first.orientation})
+      if (!is_none(*columns)) columns->clear();  // of the second table
+  ImportedStroke first = stroke_of(read_samples(path, of_first), of_first, samples_name(path));
   if (settings.merge.empty()) return first;
   const fs::path beside = sample_files(path, settings).back();
   const TableSettings of_second = settings_of_second(settings);
-  const ImportedStroke second = stroke_of_table(read_samples(beside, of_second, first.axes), of_second,
-                                                samples_name(beside), first.axes);
+  const ImportedStroke second =
+      stroke_of(read_samples(beside, of_second, first.axes), of_second, samples_name(beside), first.axes);
   merge_strokes(first, second, settings.merge_shift, samples_name(path), samples_name(beside));
   return first;
 }
@@ -65,7 +80,7 @@ ImportedStroke import_stroke_text(std::string_view text, const std::string& name
                                   const TableSettings& settings) {
   TextTable table(name, settings);
   table.read(text);
-  return stroke_of_table(table.take(), settings, name);
+  return stroke_of(table.take(), settings, name);
 }
 
 }  // namespace sandstroke

@@ -2,20 +2,15 @@
 
 #include <algorithm>
 #include <map>
-#include <pugixml.hpp>
 
 #include "core/error.h"
 #include "core/input_file.h"
 #include "import/sample_checks.h"
 #include "import/text_parts.h"
+#include "import/xml_parts.h"
 
 namespace sandstroke {
 namespace {
-
-std::string_view local_name(const pugi::xml_node& node) {
-  const std::string_view name = node.name();
-  return name.substr(name.find(':') + 1);  // the whole name, if it has no colon
-}
 
 /// The nodes of a document that are used, wherever they stand. pugixml walks without recursion.
 struct InkNodes : pugi::xml_tree_walker {
@@ -34,6 +29,8 @@ struct InkNodes : pugi::xml_tree_walker {
 
 struct InkChannel {
   std::string name, unit;
+  std::optional<double> least, most;  // of the numbers in the file
+  double sign = 1.0;                  // of the column: y points down in InkML
   double per_unit = 1.0;
 };
 
@@ -49,8 +46,13 @@ std::vector<InkChannel> channels_of(const pugi::xml_node& format) {
   for (const pugi::xml_node& node : format.children()) {
     if (local_name(node) != "channel") continue;
     const std::string name = node.attribute("name").value(), unit = node.attribute("units").value();
-    channels.push_back({column_of_channel(name), unit == "dev" ? "" : unit});
+    channels.push_back({column_of_channel(name), unit == "dev" ? "" : unit,
+                        finite_number(node.attribute("min").value()),
+                        finite_number(node.attribute("max").value())});
     if (name == "T" && unit.empty()) channels.back().unit = "ms";
+    const bool turned = std::string_view(node.attribute("orientation").value()) == "-ve";
+    if (name == "X" || name == "Y" || name == "Z")
+      channels.back().sign = turned == (name == "Y") ? 1.0 : -1.0;
   }
   return channels;
 }
@@ -132,13 +134,16 @@ class InkmlReader {
     const bool has_time =
         std::any_of(channels_.begin(), channels_.end(), [](const auto& one) { return one.name == "time"; });
     if (!has_time && rate_ > 0.0) table_.columns.push_back({"time", "s", std::move(times_)});
-    table_.description = fmt::format("InkML: {} pen strokes, {} samples", strokes, table_.size());
+    warn_of_values_beyond();
+    table_.description = fmt::format("InkML: {} pen strokes, {} samples, y points {} in the file{}", strokes,
+                                     table_.size(), y_is_negated() ? "down" : "up (orientation -ve)",
+                                     y_is_negated() ? " and is negated" : "");
     return std::move(table_);
   }
 
  private:
   void take_channels() {
-    channels_ = {{"x", ""}, {"y", ""}};
+    channels_ = {{"x", "", {}, {}}, {"y", "", {}, {}, -1.0}};
     for (const pugi::xml_node& format : nodes_.formats) {
       const std::vector<InkChannel> channels = channels_of(format);
       const bool same = std::equal(channels.begin(), channels.end(), channels_.begin(), channels_.end(),
@@ -153,6 +158,33 @@ class InkmlReader {
                         [&](const auto& one) { return one.name == needed; }) != 1)
         throw_input_error("{}: traceFormat must have the channels X and Y once each; correct it", name_);
     for (const pugi::xml_node& property : nodes_.properties) take_resolution(property, channels_);
+  }
+
+  bool y_is_negated() const {
+    return std::any_of(channels_.begin(), channels_.end(),
+                       [](const InkChannel& one) { return one.name == "y" && one.sign < 0.0; });
+  }
+
+  /// A resolution, a unit or a format that is wrong shows where values leave their channel's range.
+  void warn_of_values_beyond() {
+    for (std::size_t i = 0; i < channels_.size(); ++i) {
+      const InkChannel& channel = channels_[i];
+      const auto& values = table_.columns[i].values;
+      const auto [low, high] = std::minmax_element(values.begin(), values.end());
+      double least = channel.sign * *low * channel.per_unit, most = channel.sign * *high * channel.per_unit;
+      if (least > most) std::swap(least, most);
+      const double rounding = 1e-9 * std::max(std::abs(least), std::abs(most));
+      if (channel.least.value_or(least) <= least + rounding && most - rounding <= channel.most.value_or(most))
+        continue;
+      const auto bound = [](const std::optional<double>& value) {
+        return value ? fmt::format("{:g}", *value) : std::string("any");
+      };
+      table_.warnings.push_back(
+          fmt::format("{}: the channel of {} has values from {:g} to {:g}, but traceFormat says {} to {}; "
+                      "see whether its "
+                      "unit and resolution are those of the values",
+                      name_, channel.name, least, most, bound(channel.least), bound(channel.most)));
+    }
   }
 
   void take_trace(const pugi::xml_node& trace) {
@@ -171,7 +203,7 @@ class InkmlReader {
               "correct it",
               name_, trace_, table_.lifts.size() - begin + 1, whole.substr(0, 60), channels_.size());
         }
-        table_.columns[i].values.push_back(*value / channels_[i].per_unit);
+        table_.columns[i].values.push_back(channels_[i].sign * *value / channels_[i].per_unit);
       }
       const std::size_t since = offset ? table_.lifts.size() - begin : table_.lifts.size();
       if (rate_ > 0.0) times_.push_back(1e-3 * offset.value_or(0.0) + static_cast<double>(since) / rate_);
@@ -193,18 +225,12 @@ class InkmlReader {
 
 SampleTable parse_inkml(std::string_view text, const std::string& name) {
   pugi::xml_document document;
-  const pugi::xml_parse_result result = document.load_buffer(text.data(), text.size());
-  if (!result) {
-    const auto until = text.begin() + std::min<std::ptrdiff_t>(result.offset, std::ssize(text));
-    throw_input_error("{}:{}: is not valid XML ({}); save the file again", name,
-                      1 + std::count(text.begin(), until, '\n'), result.description());
-  }
+  parse_xml(text, name, document);
   return finite_samples(InkmlReader(document, name).table(), name);
 }
 
 SampleTable read_inkml(const std::filesystem::path& path) {
-  constexpr std::size_t most_bytes = 50'000'000;  // as nodes in memory it is several times as large
-  return parse_inkml(read_text_file(path, most_bytes), path.string());
+  return parse_inkml(read_text_file(path, most_xml_bytes), path.string());
 }
 
 }  // namespace sandstroke

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "import/missing_samples.h"
 #include "import/table_layout.h"
 
 namespace sandstroke {
@@ -21,6 +22,40 @@ double offset_of(const ImportedStroke& first, const ImportedStroke& second, doub
   constexpr std::int64_t second_ns = 1'000'000'000;
   const auto whole = static_cast<double>(*second.clock / second_ns - *first.clock / second_ns);
   return shift + whole + 1e-9 * static_cast<double>(*second.clock % second_ns - *first.clock % second_ns);
+}
+
+/// The sample of a stroke at or before a time within it, and the fraction of the way to the next one.
+struct Between {
+  std::size_t sample = 0, next = 0;
+  double fraction = 0.0;
+};
+Between between(const std::vector<double>& time, double at) {
+  const auto after = std::upper_bound(time.begin(), time.end(), at) - time.begin();
+  const auto sample = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - 1, 0));
+  const std::size_t next = std::min(sample + 1, time.size() - 1);
+  const double step = time[next] - time[sample];
+  return {sample, next, step > 0.0 ? std::clamp((at - time[sample]) / step, 0.0, 1.0) : 0.0};
+}
+
+/// Leaves out the samples in gaps of the second table. Returns a warning, or nothing.
+std::string leave_out_gaps(Stroke& stroke, const Stroke& from, double offset,
+                           const std::string& second_name) {
+  std::vector<bool> in_gap;
+  for (const double time : stroke.time) {
+    const Between at = between(from.time, time - offset);
+    in_gap.push_back(at.fraction > 0.0 && at.fraction < 1.0 && !from.sampled_between(at.sample));
+  }
+  const auto count = std::count(in_gap.begin(), in_gap.end(), true);
+  if (count == 0) return "";
+  if (count == std::ssize(in_gap))
+    throw_input_error("{}: all samples of the first table lie in its gaps of over {:.4g} s; give {}",
+                      second_name, from.gap_threshold, option_and_key("merge_shift"));
+  std::vector<std::size_t> no_lines;
+  leave_out_samples(stroke, no_lines, in_gap);
+  return fmt::format(
+      "{}: {} samples of the first table are left out, and the tool lifts there, because they lie in gaps of "
+      "this one, where it has no samples for over {:.4g} s",
+      second_name, count, from.gap_threshold);
 }
 
 }  // namespace
@@ -59,15 +94,14 @@ void merge_strokes(ImportedStroke& first, const ImportedStroke& second, double s
                       first_name, option_and_key("merge_shift"));
   keep_samples(stroke, sample_at(begin), kept_end);
 
+  if (const std::string gaps = leave_out_gaps(stroke, from, offset, second_name); !gaps.empty())
+    first.warnings.push_back(gaps);
+
   if (!from.force.empty()) stroke.force_sign = from.force_sign;
   if (!from.force.empty()) stroke.force.clear();
   if (!from.orientation.empty()) stroke.orientation.clear();
-  std::size_t k = 0;
   for (const double time : stroke.time) {
-    const double own = std::clamp(time - offset, from.time.front(), from.time.back());
-    while (k + 2 < from.size() && from.time[k + 1] <= own) ++k;
-    const std::size_t next = std::min(k + 1, from.size() - 1);
-    const double fraction = next == k ? 0.0 : (own - from.time[k]) / (from.time[next] - from.time[k]);
+    const auto [k, next, fraction] = between(from.time, time - offset);
     if (!from.force.empty())
       stroke.force.push_back(from.force[k] + fraction * (from.force[next] - from.force[k]));
     if (!from.orientation.empty())

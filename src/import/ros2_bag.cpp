@@ -3,13 +3,11 @@
 #include <sqlite3.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
-#include <numeric>
 
 #include "core/error.h"
 #include "core/input_file.h"
-#include "import/ros_message.h"
+#include "import/ros_samples.h"
 
 namespace sandstroke {
 namespace {
@@ -19,18 +17,14 @@ namespace fs = std::filesystem;
 using Database = std::unique_ptr<sqlite3, decltype([](sqlite3* database) { sqlite3_close(database); })>;
 using Statement = std::unique_ptr<sqlite3_stmt, decltype([](sqlite3_stmt* rows) { sqlite3_finalize(rows); })>;
 
-struct BagTopic {
-  std::int64_t id = 0, messages = 0;
-  std::string name, type;
-
-  bool readable() const { return messages > 0 && !ros_message_columns(type).empty(); }
-};
-
-class Ros2Bag {
+class Ros2Bag : public RosRecording {
  public:
   explicit Ros2Bag(const fs::path& path);
-  std::vector<BagTopic> topics();
-  SampleTable table(const BagTopic& topic);
+  const char* kind() const override { return "ROS 2 bag"; }
+  const std::string& name() const override { return name_; }
+  std::vector<RosTopic> topics() override;
+  void read(const std::set<std::int64_t>& ids, const Take& take) override;
+  std::string place() const override { return fmt::format("message {}", number_); }
 
  private:
   Statement query(const char* sql);
@@ -41,6 +35,7 @@ class Ros2Bag {
   std::string name_;
   Database database_;
   double steps_left_ = 0.0;
+  std::size_t number_ = 0;  // of the message that is being taken
 };
 
 /// A URI that SQLite opens only for reading, and without looking for a writer.
@@ -107,105 +102,40 @@ std::string Ros2Bag::text(const Statement& rows, int column) const {
   return text ? reinterpret_cast<const char*>(text) : "";
 }
 
-std::vector<BagTopic> Ros2Bag::topics() {
+std::vector<RosTopic> Ros2Bag::topics() {
   const Statement rows = query(
       "SELECT topics.id, name, type, messages FROM topics LEFT JOIN (SELECT topic_id, count(*) AS messages "
-      "FROM "
-      "messages GROUP BY topic_id) ON topic_id = topics.id ORDER BY name");
-  std::vector<BagTopic> topics;
+      "FROM messages GROUP BY topic_id) ON topic_id = topics.id");
+  std::vector<RosTopic> topics;
   while (step(rows))
-    topics.push_back({sqlite3_column_int64(rows.get(), 0), sqlite3_column_int64(rows.get(), 3), text(rows, 1),
-                      text(rows, 2)});
+    topics.push_back({text(rows, 1),
+                      text(rows, 2),
+                      "cdr",
+                      static_cast<std::uint64_t>(sqlite3_column_int64(rows.get(), 3)),
+                      {sqlite3_column_int64(rows.get(), 0)}});
   return topics;
 }
 
-/// Fills the first column with the time since the first stamp, and sorts the rows by it: headers may be in
-/// another order than their messages.
-void set_stamps(SampleTable& table, const std::vector<std::int64_t>& stamps) {
-  std::vector<std::size_t> order(stamps.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return stamps[a] < stamps[b]; });
-  for (SampleColumn& column : table.columns) {
-    std::vector<double> ordered;
-    for (const std::size_t row : order)
-      if (!column.values.empty()) ordered.push_back(column.values[row]);
-    column.values = std::move(ordered);
-  }
-  SampleColumn& time = table.columns.front();
-  time.origin = stamps[order.front()];
-  for (const std::size_t row : order) {
-    std::int64_t since = 0;  // stamps of a damaged file may differ by more than it holds
-    const bool beyond = __builtin_sub_overflow(stamps[row], *time.origin, &since);
-    time.values.push_back(beyond ? 0x1p63 : static_cast<double>(since));
-  }
-}
-
-SampleTable Ros2Bag::table(const BagTopic& topic) {
-  SampleTable table;
-  table.columns = ros_message_columns(topic.type);
-  std::vector<std::int64_t> stamps, received;  // ns
-  std::size_t left_out = 0;
-  const Statement rows = query("SELECT timestamp, data FROM messages WHERE topic_id = ? ORDER BY timestamp");
-  sqlite3_bind_int64(rows.get(), 1, topic.id);
-  while (step(rows)) {
-    const auto* bytes = static_cast<const char*>(sqlite3_column_blob(rows.get(), 1));
-    const std::string_view data(bytes ? bytes : "",
-                                static_cast<std::size_t>(sqlite3_column_bytes(rows.get(), 1)));
-    const std::optional<RosMessage> message = ros_message(topic.type, data);
-    if (!message) {
-      throw_input_error(
-          "{}: message {} of {} is not a {}{}", name_, stamps.size() + left_out + 1, topic.name, topic.type,
-          data.starts_with("\x28\xB5\x2F\xFD") ? ", but compressed; unpack the bag: ros2 bag convert"
-                                               : " in CDR; take another copy of the bag");
+void Ros2Bag::read(const std::set<std::int64_t>& ids, const Take& take) {
+  number_ = 0;
+  for (const std::int64_t id : ids) {
+    const Statement rows =
+        query("SELECT timestamp, data FROM messages WHERE topic_id = ? ORDER BY timestamp");
+    sqlite3_bind_int64(rows.get(), 1, id);
+    while (step(rows)) {
+      ++number_;
+      const auto* bytes = static_cast<const char*>(sqlite3_column_blob(rows.get(), 1));
+      const auto size = static_cast<std::size_t>(sqlite3_column_bytes(rows.get(), 1));
+      take(sqlite3_column_int64(rows.get(), 0), {bytes ? bytes : "", size});
     }
-    if (!std::all_of(message->values.begin(), message->values.end(),
-                     [](double value) { return std::isfinite(value); })) {
-      ++left_out;
-      continue;
-    }
-    stamps.push_back(message->stamp);
-    received.push_back(sqlite3_column_int64(rows.get(), 0));
-    for (std::size_t i = 0; i < message->values.size(); ++i)
-      table.columns[i].values.push_back(message->values[i]);
   }
-  if (stamps.empty())
-    throw_input_error("{}: no message of {} has finite numbers; name another topic", name_, topic.name);
-  const bool has_stamps =
-      std::any_of(stamps.begin(), stamps.end(), [](std::int64_t stamp) { return stamp != 0; });
-  table.columns.insert(table.columns.begin(), {"time", "ns", {}});
-  set_stamps(table, has_stamps ? stamps : received);
-  table.description =
-      fmt::format("ROS 2 bag: {} messages of {} ({}), time from {}{}", stamps.size(), topic.name, topic.type,
-                  has_stamps ? "their headers" : "the bag",
-                  left_out ? fmt::format(", {} left out because they are not finite", left_out) : "");
-  return table;
 }
 
 }  // namespace
 
-SampleTable read_ros2_bag(const fs::path& path, const std::string& topic) {
+SampleTable read_ros2_bag(const fs::path& path, const std::string& part) {
   Ros2Bag bag(path);
-  std::vector<BagTopic> fit;
-  std::vector<std::string> all, readable;
-  for (const BagTopic& one : bag.topics()) {
-    all.push_back(fmt::format("{} ({}, {} messages)", one.name, one.type, one.messages));
-    if (!one.readable()) continue;
-    readable.push_back(all.back());
-    if (topic.empty() || one.name == topic) fit.push_back(one);
-  }
-  if (fit.size() == 1) return bag.table(fit.front());
-  if (readable.empty()) {
-    throw_input_error(
-        "{}: no topic has messages with a position or a force (geometry_msgs' Point, Pose, Transform, "
-        "Wrench, also "
-        "Stamped); it has: {}",
-        path.string(), all.empty() ? "none" : fmt::format("{}", fmt::join(all, ", ")));
-  }
-  const std::string choose =
-      fmt::format("name one of its topics with stroke.table.part (stroke convert: --part): {}",
-                  fmt::join(readable, ", "));
-  if (topic.empty()) throw_input_error("{}: several topics can be read; {}", path.string(), choose);
-  throw_input_error("{}: topic '{}' cannot be read; {}", path.string(), topic, choose);
+  return ros_samples(bag, part);
 }
 
 }  // namespace sandstroke

@@ -11,15 +11,18 @@ namespace sandstroke {
 
 /// One column of a table of samples.
 struct SampleColumn {
-  std::string name;            ///< as in the file; "1", "2", ... if columns have no names
-  std::string unit;            ///< as in the file ("mm", "N"); empty: none, or only in the name
-  std::vector<double> values;  ///< one per sample, finite; empty: the column is not used
+  std::string name;  ///< as in the file; "1", "2", ... if columns have no names
+  std::string unit;  ///< as in the file ("mm", "N"); empty: none, or only in the name
+  /// One per sample; not finite where the file has no number. Empty: the column is not used.
+  std::vector<double> values;
   /// The number that was subtracted from all values: the first of a clock's stamps, which no double holds.
   std::optional<std::int64_t> origin = {};
 };
 
 /// The unit of a column of times that were dates; its values are in ns.
 inline constexpr const char* iso_unit = "ISO 8601";
+/// The unit of a column of seconds that was joined with one of their fractions; its values are in ns.
+inline constexpr const char* joined_unit = "s, and their fractions in a second column";
 
 /// Samples as they are in a file of any format.
 struct SampleTable {

@@ -5,16 +5,42 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "haptics/gap_threshold.h"
 #include "haptics/stroke_lines.h"
 #include "import/equal_times.h"
+#include "import/missing_samples.h"
+#include "import/pen_states.h"
+#include "import/redundancy.h"
 #include "import/table_layout.h"
-#include "import/units.h"
+#include "import/table_times.h"
+#include "import/used_columns.h"
 
 namespace sandstroke {
 namespace {
 
 using Eigen::Matrix3d;
+using Eigen::Quaterniond;
 using Eigen::Vector3d;
+
+/// Vectors of a stroke from 2 or 3 columns.
+std::vector<Vector3d> vectors(const SampleTable& table, const ColumnChoices& choices, const Unit& unit) {
+  std::vector<Vector3d> rows(table.size(), Vector3d::Zero());
+  for (std::size_t k = 0; k < choices.size(); ++k) {
+    const std::vector<double>& values = table.columns[choices[k].column].values;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rows[i][static_cast<Eigen::Index>(k)] = choices[k].sign * unit.to_si(values[i]);
+  }
+  return rows;
+}
+
+/// Turns an orientation from the table's axes to the stroke's. A reflection of the axes is no rotation of the
+/// tool; together with one of the tool itself, in its own y, it is. Tools that are alike on both sides do not
+/// change by that: a plate is wide along y.
+Quaterniond turned(const Matrix3d& axes, const Quaterniond& q) {
+  if (axes.determinant() > 0.0) return Quaterniond(axes) * q;
+  const Matrix3d both = axes * Vector3d(1, -1, 1).asDiagonal();
+  return Quaterniond(both) * Quaterniond(q.w(), -q.x(), q.y(), -q.z());  // q as the mirrored tool has it
+}
 
 class StrokeMaker {
  public:
@@ -23,53 +49,56 @@ class StrokeMaker {
       : table_(table),
         settings_(settings),
         name_(name),
-        layout_(table_layout(table.columns, settings, name, of_first)),
-        is_second_(of_first.has_value()) {}
+        is_second_(of_first.has_value()),
+        found_(table_layout(table.columns, settings, name, of_first)),
+        used_(used_columns(table, found_, settings, name, is_second_)),
+        layout_(used_.layout),
+        lines_(table.lines) {}
 
   ImportedStroke make() {
-    Stroke& stroke = made_.stroke;
     made_.description = table_.description;
     made_.axes = layout_.axes;
     made_.warnings = table_.warnings;
-    take_positions();
-    take_velocity();
-    take_force();
-    take_orientation();
-    take_pressure();
+    const TableTimes times = table_times(table_, layout_, settings_, name_, is_second_);
+    std::vector<std::string> asks = used_.asks;
+    asks.insert(asks.end(), times.asks.begin(), times.asks.end());
+    if (!asks.empty()) throw_input_error("{}: {}", name_, fmt::join(asks, "; and "));
+    take_columns();
+    tell(times.text);
+    for (const std::string& note : used_.notes) tell(note);
+    for (const std::string& warning : used_.warnings) made_.warnings.push_back(warning);
+    for (const std::string& warning : times.warnings) warn(warning);
+    take_times(times);
     take_pen();
-    take_times();
-    if (!asks_.empty()) throw_input_error("{}: {}", name_, fmt::join(asks_, "; and "));
-    EqualTimes rule = settings_.equal_times;
-    if (by_speed_) rule = EqualTimes::drop;  // at equal times the tip did not move
-    settle_equal_times(stroke, table_.lines, rule, name_);
     tell_unused_columns();
+    settle_gaps();
+    Stroke& stroke = made_.stroke;
     stroke.frame = settings_.frame;
-    if (settings_.gap_threshold > 0.0)
-      stroke.gap_threshold = settings_.gap_threshold;
-    else if (by_speed_ || table_.line_tolerance > 0.0)
-      stroke.gap_threshold = 1.0 + stroke.duration();  // however far apart the points are
     check_stroke(stroke, name_);
-    if (table_.line_tolerance > 0.0) keep_lines_straight(stroke, length_.to_si(table_.line_tolerance));
+    if (table_.line_tolerance > 0.0)
+      keep_lines_straight(stroke, used_.length.unit.to_si(table_.line_tolerance));
+    else
+      compare_columns();
     return std::move(made_);
   }
 
  private:
   void tell(const std::string& what) { made_.description += (made_.description.empty() ? "" : "; ") + what; }
-
-  std::string names(const ColumnChoices& choices) const {
-    std::vector<std::string> texts;
-    for (const ColumnChoice& choice : choices)
-      texts.push_back((choice.sign < 0.0 ? "-" : "") + table_.columns[choice.column].name);
-    return fmt::format("{}", fmt::join(texts, ", "));
+  void warn(const std::string& what) {
+    if (!what.empty()) made_.warnings.push_back(fmt::format("{}: {}", name_, what));
   }
+  std::string names(const ColumnChoices& choices) const { return names_of(table_, choices); }
 
   void tell_unused_columns() {
     std::vector<bool> used(table_.columns.size(), false);
     for (const ColumnChoices* choices :
-         {&layout_.position, &layout_.velocity, &layout_.force, &layout_.orientation})
+         {&found_.position, &found_.velocity, &found_.force, &found_.orientation})
       for (const ColumnChoice& choice : *choices) used[choice.column] = true;
-    for (const std::optional<std::size_t>& column : {layout_.time, layout_.pressure})
+    for (const std::optional<std::size_t>& column :
+         {found_.time, found_.pressure, found_.stroke_number, found_.pen_state})
       if (column) used[*column] = true;
+    if (found_.time_fraction && table_.columns[*found_.time].unit == joined_unit)
+      used[*found_.time_fraction] = true;
     constexpr std::size_t most = 8;
     std::vector<std::string> left;
     for (std::size_t i = 0; i < used.size(); ++i)
@@ -81,226 +110,125 @@ class StrokeMaker {
                      more > 0 ? fmt::format(" and {} more", more) : ""));
   }
 
-  /// The key that names the times of this table.
-  std::string own_key(const std::string& key) const { return is_second_ ? "merge_" + key : key; }
-
-  /// The common unit of the columns; empty: they have none, or different ones.
-  std::string own_unit(const ColumnChoices& choices) const {
-    const std::string& unit = table_.columns[choices.front().column].unit;
-    const bool same = std::all_of(choices.begin(), choices.end(), [&](const ColumnChoice& choice) {
-      return table_.columns[choice.column].unit == unit;
-    });
-    return same ? unit : "";
+  void take_columns() {
+    Stroke& stroke = made_.stroke;
+    stroke.position = vectors(table_, layout_.position, used_.length.unit);
+    if (!layout_.position.empty()) {
+      tell(fmt::format("position {} ({})", names(layout_.position), used_.length.name));
+      warn_of_axes();
+    }
+    if (!layout_.velocity.empty()) {
+      stroke.velocity = vectors(table_, layout_.velocity, used_.speed.unit);
+      tell(fmt::format("velocity {} ({})", names(layout_.velocity), used_.speed.name));
+    }
+    if (!layout_.force.empty()) {
+      stroke.force = vectors(table_, layout_.force, used_.force.unit);
+      tell(fmt::format("force {} ({})", names(layout_.force), used_.force.name));
+      stroke.force_sign = settings_.force_sign;
+      if (settings_.force_sign == ForceSign::not_said)
+        warn(
+            fmt::format("the table does not say whether {} is the force on the device or by the hand; it "
+                        "is taken as on the device; set {} to say which",
+                        names(layout_.force), option_and_key("force_sign")));
+    }
+    if (!layout_.orientation.empty()) take_orientation();
+    if (layout_.pressure) {
+      const SampleColumn& column = table_.columns[*layout_.pressure];
+      stroke.pressure = column.values;
+      tell(fmt::format("pressure {}", column.name));
+    }
   }
 
-  std::string unit_not_known(const ColumnChoices& choices) const {
-    std::vector<std::string> units;
-    for (const ColumnChoice& choice : choices) units.push_back(table_.columns[choice.column].unit);
-    const bool none =
-        std::all_of(units.begin(), units.end(), [](const std::string& unit) { return unit.empty(); });
-    return none ? "not known" : fmt::format("not the same in all columns ({})", fmt::join(units, ", "));
-  }
-
-  std::vector<Vector3d> vectors(const ColumnChoices& choices, const Unit& unit) const {
-    std::vector<Vector3d> rows(table_.size(), Vector3d::Zero());
-    for (std::size_t k = 0; k < choices.size(); ++k) {
-      const std::vector<double>& values = table_.columns[choices[k].column].values;
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        rows[i][static_cast<Eigen::Index>(k)] = choices[k].sign * unit.to_si(values[i]);
-    }
-    return rows;
-  }
-
-  void take_positions() {
-    if (layout_.position.empty()) {
-      made_.stroke.position.assign(table_.size(), Vector3d::Zero());
-      return;
-    }
-    std::string unit = settings_.position_unit;
-    if (unit.empty()) unit = own_unit(layout_.position);
-    if (unit.empty() || (unit == "radius" && settings_.position_unit.empty())) {
-      asks_.push_back(
-          fmt::format("the unit of {} is {}; give {}: {}", names(layout_.position),
-                      unit.empty() ? unit_not_known(layout_.position) : "the pattern's radius",
-                      option_and_key("position_unit"),
-                      unit.empty() ? "m, cm, mm, um, in, px or a number of metres" : "the radius in metres"));
-      unit = "m";
-    }
-    length_ = unit_of(Quantity::length, unit, settings_.pixel_size);
-    made_.stroke.position = vectors(layout_.position, length_);
-    tell(fmt::format("position {} ({})", names(layout_.position), unit));
-    const std::vector<double>& y = table_.columns[layout_.position[1].column].values;
-    const bool counts_down = layout_.position[1].sign > 0.0 &&
-                             std::any_of(y.begin(), y.end(), [](double value) { return value > 0.0; });
-    if (unit == "px" && counts_down)
-      made_.warnings.push_back(
-          fmt::format("{}: y is taken to point upwards, but on screens and tablets it points downwards; if "
+  void warn_of_axes() {
+    const ColumnChoices& position = layout_.position;
+    const std::vector<double>& y = table_.columns[position[1].column].values;
+    const bool counts_down =
+        position[1].sign > 0.0 && std::any_of(y.begin(), y.end(), [](double value) { return value > 0.0; });
+    const bool of_pen = is_pixel(used_.length.name) || (layout_.pressure && position.size() == 2);
+    if (of_pen && counts_down)
+      warn(
+          fmt::format("y is taken to point upwards, but on screens and tablets it points downwards; if "
                       "the shape is upside down, set {} to \"{},-{}\"",
-                      name_, option_and_key("position"), table_.columns[layout_.position[0].column].name,
-                      table_.columns[layout_.position[1].column].name));
-    if (layout_.position.size() == 3 && layout_.axes.determinant() < 0.0)
-      made_.warnings.push_back(fmt::format(
-          "{}: the axes {} are left-handed, so the shape is mirrored; change one sign, or swap two", name_,
-          names(layout_.position)));
-  }
-
-  /// The unit of optional columns; empty: it is not known, and they are left out. asked: the settings name
-  /// them, and without a unit this is an Error: input.
-  std::string unit_or_none(const ColumnChoices& choices, const std::string& unit, bool asked, const char* key,
-                           Quantity quantity) {
-    const std::string found = unit.empty() ? own_unit(choices) : unit;
-    if (asked && found.empty())
-      throw_input_error("{}: the unit of {} is not known; give {}", name_, names(choices),
-                        option_and_key(key));
-    if (asked || !unit.empty() || known_unit(quantity, found)) return found;
-    const std::string left_out = fmt::format("{} left out, because its unit is not known; give {}",
-                                             names(choices), option_and_key(key));
-    if (quantity == Quantity::force)
-      made_.warnings.push_back(fmt::format("{}: {}", name_, left_out));
-    else
-      tell(left_out);  // no run uses it
-    return "";
-  }
-
-  void take_velocity() {
-    if (layout_.velocity.empty()) return;
-    const std::string unit = unit_or_none(layout_.velocity, settings_.velocity_unit,
-                                          !settings_.velocity.empty(), "velocity_unit", Quantity::speed);
-    if (unit.empty()) return;
-    made_.stroke.velocity = vectors(layout_.velocity, unit_of(Quantity::speed, unit));
-    tell(fmt::format("velocity {} ({})", names(layout_.velocity), unit));
-  }
-
-  void take_force() {
-    if (layout_.force.empty()) return;
-    const std::string unit = unit_or_none(layout_.force, settings_.force_unit, !settings_.force.empty(),
-                                          "force_unit", Quantity::force);
-    if (unit.empty()) return;
-    made_.stroke.force = vectors(layout_.force, unit_of(Quantity::force, unit));
-    tell(fmt::format("force {} ({})", names(layout_.force), unit));
-    made_.stroke.force_sign = settings_.force_sign;
-    if (settings_.force_sign == ForceSign::not_said)
-      made_.warnings.push_back(
-          fmt::format("{}: the table does not say whether {} is the force on the device or by the hand; it "
-                      "is taken as on the device; set {} to say which",
-                      name_, names(layout_.force), option_and_key("force_sign")));
+                      option_and_key("position"), table_.columns[position[0].column].name,
+                      table_.columns[position[1].column].name));
+    if (position.size() == 3 && layout_.axes.determinant() < 0.0)
+      warn(fmt::format("the axes {} are left-handed, so the shape is mirrored; change one sign, or swap two",
+                       names(position)));
   }
 
   void take_orientation() {
-    if (layout_.orientation.empty()) return;
-    if (layout_.axes.determinant() < 0.0) {
-      if (!settings_.orientation.empty())
-        throw_input_error("{}: orientation cannot be read with left-handed axes; change a sign of {}", name_,
-                          names(layout_.position));
-      return;
-    }
-    const Eigen::Quaterniond turn(layout_.axes);
     const auto value = [&](std::size_t k, std::size_t i) {
       const ColumnChoice& choice = layout_.orientation[k];
       return choice.sign * table_.columns[choice.column].values[i];
     };
+    const bool is_quaternion = layout_.orientation.size() == 4;
     for (std::size_t i = 0; i < table_.size(); ++i) {
-      Eigen::Quaterniond q;
-      if (layout_.orientation.size() == 4) {
-        q = Eigen::Quaterniond(value(3, i), value(0, i), value(1, i), value(2, i));
+      Quaterniond q = Quaterniond::Identity();
+      if (used_.missing[i]) {
+        // Stays so until the sample is left out.
+      } else if (is_quaternion) {
+        q = Quaterniond(value(3, i), value(0, i), value(1, i), value(2, i));
       } else {
         Matrix3d matrix;
         for (std::size_t k = 0; k < 9; ++k)
           matrix(static_cast<int>(k / 3), static_cast<int>(k % 3)) = value(k, i);
         const bool is_rotation = (matrix * matrix.transpose()).isIdentity(0.01) && matrix.determinant() > 0.0;
-        q = is_rotation ? Eigen::Quaterniond(matrix) : Eigen::Quaterniond(0.0, 0.0, 0.0, 0.0);
+        q = is_rotation ? Quaterniond(matrix) : Quaterniond(0.0, 0.0, 0.0, 0.0);
       }
       if (!(q.norm() > 0.5 && q.norm() < 2.0))
         throw_input_error("{}: columns {} are not a {}; name other columns, or correct the sample",
-                          location(i), names(layout_.orientation),
-                          layout_.orientation.size() == 4 ? "quaternion of length 1" : "rotation matrix");
-      made_.stroke.orientation.emplace_back((turn * q.normalized()).coeffs());
+                          sample_location(name_, table_.lines, i), names(layout_.orientation),
+                          is_quaternion ? "quaternion of length 1" : "rotation matrix");
+      made_.stroke.orientation.emplace_back(turned(layout_.axes, q.normalized()).coeffs());
     }
     tell(fmt::format("orientation {}", names(layout_.orientation)));
+    if (layout_.axes.determinant() < 0.0)
+      warn(
+          fmt::format("the axes of the position{} are left-handed, so orientation {} is mirrored, too; that "
+                      "is right for tools whose sides (-y and y) are alike; for others change one sign, or "
+                      "set {} to none",
+                      is_second_ ? "" : " " + names(layout_.position), names(layout_.orientation),
+                      option_and_key("orientation")));
   }
 
-  void take_pressure() {
-    if (!layout_.pressure) return;
-    const SampleColumn& column = table_.columns[*layout_.pressure];
-    made_.stroke.pressure = column.values;
-    tell(fmt::format("pressure {}", column.name));
-  }
-
-  /// A pen that presses in some samples hovers in those without pressure.
-  void take_pen() {
+  /// Makes the times of the samples that lack no value, and lifts the pen where others were.
+  void take_times(const TableTimes& times) {
     Stroke& stroke = made_.stroke;
-    for (const bool lifts : table_.lifts) stroke.contact.push_back(lifts ? pen_lifts : pen_down);
-    const auto presses = [](double pressure) { return pressure > 0.0; };
-    const auto pressed = std::count_if(stroke.pressure.begin(), stroke.pressure.end(), presses);
-    if (pressed == 0 || pressed == std::ssize(stroke.pressure)) return;
-    stroke.contact.resize(table_.size(), pen_down);
-    for (std::size_t i = 0; i < stroke.contact.size(); ++i)
-      if (!presses(stroke.pressure[i])) stroke.contact[i] = pen_up;
-    tell(fmt::format("the pen is up in {} samples without pressure", std::ssize(stroke.pressure) - pressed));
-  }
-
-  std::string location(std::size_t i) const {
-    return table_.lines.empty() ? fmt::format("{}: sample {}", name_, i)
-                                : fmt::format("{}:{}", name_, table_.lines[i]);
-  }
-
-  void take_times() {
-    const bool asked = !settings_.time.empty();
-    if (asked + (settings_.rate > 0.0) + (settings_.speed > 0.0) > 1)
-      throw_input_error("{}: the times are given twice; give only one of time, rate and speed", name_);
-    Stroke& stroke = made_.stroke;
-    const double rate = settings_.rate > 0.0 ? settings_.rate : table_.rate;
-    if (layout_.time) {
-      take_stamps(table_.columns[*layout_.time]);
-    } else if (settings_.speed > 0.0) {
+    stroke.time = times.time;
+    stroke.nominal_rate = times.rate;
+    made_.clock = times.clock;
+    PenStates pen = pen_states(table_, layout_, settings_, name_);
+    stroke.contact = std::move(pen.contact);
+    if (!pen.text.empty()) tell(pen.text);
+    for (const std::string& warning : pen.warnings) made_.warnings.push_back(warning);
+    EqualTimes rule = settings_.equal_times;
+    if (rule == EqualTimes::spread && layout_.time) spread_times(stroke.time, stroke.contact);
+    leave_out_samples(stroke, lines_, used_.missing);
+    if (settings_.speed > 0.0) {
       times_by_way();
-    } else if (rate > 0.0) {
-      for (std::size_t i = 0; i < table_.size(); ++i) stroke.time.push_back(static_cast<double>(i) / rate);
-      stroke.nominal_rate = rate;
-      tell(fmt::format("{} Hz", rate));
-    } else {
-      if (table_.line_tolerance > 0.0)
-        asks_.push_back(fmt::format("the file gives no speed; give {} in m/s", option_and_key("speed")));
-      else if (is_second_)
-        asks_.push_back(
-            fmt::format("the times are unknown, because no column is named time or t; give {}, or {} in Hz",
-                        option_and_key(own_key("time")), option_and_key(own_key("rate"))));
-      else
-        asks_.push_back(fmt::format(
-            "the times are unknown, because no column is named time or t; give {}, {} in Hz, or {} in m/s",
-            option_and_key("time"), option_and_key("rate"), option_and_key("speed")));
+      rule = EqualTimes::drop;  // at equal times the tip did not move
     }
+    settle_equal_times(stroke, lines_, rule, name_);
+    if (settings_.speed > 0.0 && table_.line_tolerance == 0.0)  // a path's own speed is only a wish
+      warn(speed_against_times(table_, layout_, settings_, stroke.duration()));
   }
 
-  void take_stamps(const SampleColumn& column) {
-    const auto digits = std::to_string(column.origin.value_or(0)).size();
-    std::string unit = settings_.time_unit;
-    if (unit.empty()) unit = column.unit;
-    if (column.unit == iso_unit) unit = "ns";
-    if (unit.empty() && digits >= 10 && digits % 3 == 1) {  // clocks of today, since 1970
-      unit = digits == 10 ? "s" : digits == 13 ? "ms" : digits == 16 ? "us" : "ns";
-      // The time since a computer started can have as many digits, in a smaller unit.
-      constexpr double most_spacing = 10.0;  // s, between samples
-      const double span = unit_of(Quantity::time, unit).to_si(column.values.back() - column.values.front());
-      if (span > most_spacing * static_cast<double>(column.values.size())) unit.clear();
+  /// Spreads equal times of all samples that have one, so that those without a position count, too.
+  void spread_times(std::vector<double>& time, const std::vector<std::uint8_t>& contact) const {
+    Stroke timed;
+    std::vector<std::size_t> samples, lines;
+    for (std::size_t i = 0; i < time.size(); ++i) {
+      if (!std::isfinite(time[i])) continue;
+      samples.push_back(i);
+      timed.time.push_back(time[i]);
+      if (!contact.empty()) timed.contact.push_back(contact[i]);
+      if (!table_.lines.empty()) lines.push_back(table_.lines[i]);
     }
-    if (unit.empty()) {
-      asks_.push_back(fmt::format("the unit of the times '{}' is not known; give {}: s, ms, us or ns",
-                                  column.name, option_and_key(own_key("time_unit"))));
-      return;
-    }
-    const Unit of_time = unit_of(Quantity::time, unit);
-    for (const double stamp : column.values) made_.stroke.time.push_back(of_time.to_si(stamp));
-    if (column.origin) {
-      const auto per_unit = static_cast<std::int64_t>(of_time.to_si(1e9));
-      std::int64_t clock = 0;
-      if (!__builtin_mul_overflow(*column.origin, per_unit, &clock)) made_.clock = clock;
-    }
-    tell(fmt::format("time {} ({})", column.name, column.unit == iso_unit ? iso_unit : unit));
+    settle_equal_times(timed, lines, EqualTimes::spread, name_);
+    for (std::size_t k = 0; k < samples.size(); ++k) time[samples[k]] = timed.time[k];
   }
 
   void times_by_way() {
-    by_speed_ = true;
     Stroke& stroke = made_.stroke;
     double way = 0.0;
     for (std::size_t i = 0; i < stroke.position.size(); ++i) {
@@ -308,18 +236,64 @@ class StrokeMaker {
       stroke.time.push_back(way / settings_.speed);
     }
     stroke.tip_speed = settings_.speed;
-    tell(fmt::format("{} m/s", settings_.speed));
+  }
+
+  /// A pen that presses in some samples hovers in those without pressure.
+  void take_pen() {
+    Stroke& stroke = made_.stroke;
+    const auto presses = [](double pressure) { return pressure > 0.0; };
+    const auto pressed = std::count_if(stroke.pressure.begin(), stroke.pressure.end(), presses);
+    if (pressed == 0 || pressed == std::ssize(stroke.pressure)) return;
+    stroke.contact.resize(stroke.size(), pen_down);
+    for (std::size_t i = 0; i < stroke.contact.size(); ++i)
+      if (!presses(stroke.pressure[i])) stroke.contact[i] = pen_up;
+    tell(fmt::format("the pen is up in {} samples without pressure", std::ssize(stroke.pressure) - pressed));
+  }
+
+  void settle_gaps() {
+    Stroke& stroke = made_.stroke;
+    if (settings_.gap_threshold > 0.0) {
+      stroke.gap_threshold = settings_.gap_threshold;
+    } else if (settings_.speed > 0.0 || table_.line_tolerance > 0.0) {
+      stroke.gap_threshold = 1.0 + stroke.duration();  // however far apart the points are
+    } else {
+      stroke.gap_threshold = usual_gap_threshold(stroke);
+      if (stroke.gap_threshold > least_gap)
+        tell(fmt::format("the tool lifts where samples are over {:.4g} s apart, {} times the usual spacing",
+                         stroke.gap_threshold, spacings_of_a_gap));
+    }
+  }
+
+  /// Warns where columns do not agree with each other, or a sample with all others.
+  void compare_columns() {
+    const Stroke& stroke = made_.stroke;
+    const auto each_name = [&](const ColumnChoices& choices) {
+      std::vector<std::string> texts;
+      for (const ColumnChoice& choice : choices) texts.push_back(names({choice}));
+      return texts;
+    };
+    if (settings_.speed > 0.0) return;  // times are no measurement
+    if (!stroke.velocity.empty())
+      warn(velocity_disagreement(stroke, each_name(layout_.position), each_name(layout_.velocity)));
+    const std::vector<Jump> jumps = jumps_of(stroke);
+    if (jumps.empty()) return;
+    const Jump& first = jumps.front();
+    made_.warnings.push_back(fmt::format(
+        "{}: the tip jumps by {:.4g} m in {:.4g} s, {:.0f} times as fast as in almost all other steps{}; "
+        "correct the sample, or leave its cells empty: then the tool lifts",
+        sample_location(name_, lines_, first.sample), first.distance, first.time, first.ratio,
+        jumps.size() > 1 ? fmt::format(" ({} jumps in all)", jumps.size()) : ""));
   }
 
   const SampleTable& table_;
   const TableSettings& settings_;
   const std::string& name_;
-  TableLayout layout_;
   bool is_second_;  // of two tables that are merged
+  TableLayout found_;
+  UsedColumns used_;
+  const TableLayout& layout_;       // what is used of found_
+  std::vector<std::size_t> lines_;  // of the samples that are not left out
   ImportedStroke made_;
-  std::vector<std::string> asks_;  // what the user has to give
-  Unit length_;                    // of the position
-  bool by_speed_ = false;
 };
 
 }  // namespace

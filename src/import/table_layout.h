@@ -23,13 +23,22 @@ struct TableLayout {
   ColumnChoices velocity, force;  ///< 2 or 3, or none
   ColumnChoices orientation;      ///< 4, 9 or none
   std::optional<std::size_t> time, pressure;
+  /// Columns that only check others: times that a rate or a speed replaces, and numbers of the samples.
+  std::optional<std::size_t> replaced_time, sample_number;
+  std::optional<std::size_t> time_fraction;  ///< the time counts seconds, and this ms, us or ns of them
+  std::optional<std::size_t> stroke_number;  ///< the pen lifts where its value changes
+  std::optional<std::size_t> pen_state;      ///< the pen is down where it is not 0, or up if state_is_up
+  bool state_is_up = false;
+  /// Columns whose names do not tell clearly; none, if clear ones were found.
+  std::vector<std::size_t> perhaps_stroke_number, perhaps_pen_state;
   /// From the table's axes to the stroke's: its rows are the positions' columns.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 };
 
 /// Takes the columns that the settings name, and else those whose names tell their meaning. of_first: the
 /// axes of the first table, with which this one is merged, and which has the position then. The columns may
-/// have no values yet. Error: input; `location` says where the names stand.
+/// have no values yet. Error: input, also if two choices are equally good; `location` says where the names
+/// stand.
 TableLayout table_layout(const std::vector<SampleColumn>& columns, const TableSettings& settings,
                          const std::string& location, const std::optional<Eigen::Matrix3d>& of_first = {});
 

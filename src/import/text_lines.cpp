@@ -1,5 +1,7 @@
 #include "import/text_lines.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "import/text_parts.h"
 
@@ -16,15 +18,22 @@ void TextLines::end(const Take& take) {
 }
 
 void TextLines::read_text(std::string_view part, const Take& take) {
-  for (std::size_t end; (end = part.find_first_of("\r\n")) != std::string_view::npos;
-       part.remove_prefix(end + 1)) {
-    extend_line(part.substr(0, end));
-    const bool ends_with_both = after_return_ && end == 0 && part[0] == '\n';
-    after_return_ = part[end] == '\r';
+  // Each of the two is looked for by itself, and not again before it is reached: find_first_of takes both
+  // byte by byte, which was a third of the time of reading a table.
+  std::size_t begin = 0, newline = part.find('\n'), carriage_return = part.find('\r');
+  for (std::size_t end; (end = std::min(newline, carriage_return)) != std::string_view::npos;
+       begin = end + 1) {
+    extend_line(part.substr(begin, end - begin));
+    const bool ends_with_both = after_return_ && end == begin && end == newline;
+    after_return_ = end == carriage_return;
     if (!ends_with_both) end_line(take);
+    if (end == newline)
+      newline = part.find('\n', end + 1);
+    else
+      carriage_return = part.find('\r', end + 1);
   }
-  if (!part.empty()) after_return_ = false;
-  extend_line(part);
+  if (begin < part.size()) after_return_ = false;
+  extend_line(part.substr(begin));
 }
 
 void TextLines::extend_line(std::string_view part) {
@@ -39,7 +48,7 @@ void TextLines::end_line(const Take& take) {
   if (line.find('\0') != std::string_view::npos)
     throw_input_error("{}:{}: contains a zero byte, so the file is not text; export it as a table (CSV)",
                       name_, line_);
-  take(without_blanks(line, " \t\r"), line_);
+  take(without_blanks(line, " \r"), line_);
   rest_.clear();
 }
 

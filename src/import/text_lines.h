@@ -11,7 +11,7 @@ namespace sandstroke {
 /// Splits a text in any encoding, given part by part, into its lines.
 class TextLines {
  public:
-  /// A line without blanks at both ends, and its number from 1 on.
+  /// A line without spaces at both ends, and its number from 1 on. Tabs stay: they may separate empty fields.
   using Take = std::function<void(std::string_view line, std::size_t number)>;
 
   /// `name` stands for the file in sentences.

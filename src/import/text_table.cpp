@@ -1,18 +1,18 @@
 #include "import/text_table.h"
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <utility>
 
 #include "core/error.h"
 #include "import/column_name.h"
 #include "import/dialect.h"
+#include "import/json_rows.h"
+#include "import/sample_cells.h"
+#include "import/table_header.h"
 #include "import/table_layout.h"
 #include "import/text_lines.h"
 #include "import/text_parts.h"
-#include "import/time_stamp.h"
-#include "import/units.h"
 
 namespace sandstroke {
 namespace {
@@ -25,27 +25,6 @@ bool begins_with_one_of(std::string_view line, const std::vector<std::string>& w
     return line.size() == word.size() ||
            std::string_view(" \t,;:").find(line[word.size()]) != std::string::npos;
   });
-}
-
-/// The beginning of a line, short enough for a message.
-std::string excerpt(std::string_view line) {
-  constexpr std::size_t most = 60;
-  return line.size() <= most ? std::string(line) : std::string(line.substr(0, most)) + "...";
-}
-
-/// A unit without its brackets: mm of "[mm]".
-std::string bare_unit(const std::string& field) {
-  if (field.size() > 2 && (field.front() == '[' || field.front() == '('))
-    return field.substr(1, field.size() - 2);
-  return field;
-}
-
-bool is_unit_or_empty(const std::string& field) {
-  using enum Quantity;
-  const std::string unit = bare_unit(field);
-  if (unit.empty() || unit == "-") return true;
-  return known_unit(length, unit) || known_unit(time, unit) || known_unit(speed, unit) ||
-         known_unit(force, unit);
 }
 
 /// A number with commas: "12,040" of 12040.
@@ -75,18 +54,16 @@ class TextTable::Rows {
     lines_.end([this](std::string_view line, std::size_t number) { take_numbered(line, number); });
     if (!dialect_) begin_rows();
     if (table_.lines.empty()) throw_input_error("{}: has no samples; add at least one row", name_);
-    if (layout_.time) {
-      SampleColumn& time = table_.columns[*layout_.time];
-      time.origin = stamps_.origin();
-      if (stamps_.iso()) time.unit = iso_unit;
-    }
-    table_.description =
-        fmt::format("{}{}, {} columns, {} rows", lines_.encoding().empty() ? "" : lines_.encoding() + ", ",
-                    dialect_->text(), table_.columns.size(), grouped(table_.lines.size()));
+    cells_.finish(table_);
+    table_.description = fmt::format(
+        "{}{}, {} columns, {} rows", lines_.encoding().empty() ? "" : lines_.encoding() + ", ",
+        json_ ? "lines of JSON" : dialect_->text(), table_.columns.size(), grouped(table_.lines.size()));
     if (!pen_up_.empty() && !lifted_)
       table_.warnings.push_back(fmt::format("{}: no line begins with {}, so the pen never lifts; correct {}",
                                             name_, settings_.pen_up, option_and_key("pen_up")));
     if (has_no_header_) table_.description += ", no header";
+    if (has_row_names_) table_.description += ", names of rows in the first one";
+    if (shape_.fields > table_.columns.size()) table_.description += ", separators at the end of rows";
     return std::move(table_);
   }
 
@@ -103,62 +80,85 @@ class TextTable::Rows {
     if (line_ > static_cast<std::size_t>(settings_.skip_lines)) take_line(line);
   }
 
-  void take_line(std::string_view line) {
-    if (line.empty() || begins_with_one_of(line, skip_)) return;
+  void take_line(std::string_view with_tabs) {
+    const std::string_view line = without_blanks(with_tabs, " \t");
+    const bool nothing_before = !dialect_ && waiting_.empty();
+    if (with_tabs.empty() || (line.empty() && nothing_before) || begins_with_one_of(line, skip_)) return;
     const bool lifts = begins_with_one_of(line, pen_up_);
     lifted_ = lifted_ || lifts;
-    if (!lifts && (line[0] == '#' || line[0] == '%')) {
+    if (!lifts && !line.empty() && (line[0] == '#' || line[0] == '%')) {
       if (waiting_rows_ == 0 && !dialect_) comment_ = line.substr(1);
       return;
     }
-    if (line_ == 1 && line.size() == 5 && line.starts_with("sep=")) {  // Excel writes it
-      const auto separator = std::string_view(" ,;\t").find(line[4]);
+    if (line_ == 1 && with_tabs.size() == 5 && with_tabs.starts_with("sep=")) {  // Excel writes it
+      const auto separator = std::string_view(" ,;\t").find(with_tabs[4]);
       if (separator != std::string_view::npos && separator > 0) {
         if (settings_.separator == Separator::found) settings_.separator = static_cast<Separator>(separator);
         return;
       }
     }
-    if (dialect_) {
-      if (lifts)
-        lift();
-      else
-        take_row(splitter_.split(line, dialect_->separator));
+    if (json_ || (nothing_before && begin_json(line))) {
+      if (!line.empty()) take_row(json_->split(line, fmt::format("{}:{}", name_, line_)));
       return;
     }
-    waiting_.push_back({line_, std::string(line), lifts});
+    if (dialect_) {
+      take_fields(with_tabs, lifts);
+      return;
+    }
+    waiting_.push_back({line_, std::string(with_tabs), lifts});
     waiting_rows_ += lifts ? 0 : 1;
     if (waiting_rows_ == lines_to_look_at) begin_rows();
   }
 
-  void lift() {
-    if (!table_.lifts.empty()) table_.lifts.back() = true;
+  /// True if the first line is an object of JSON: then all are.
+  bool begin_json(std::string_view line) {
+    std::vector<std::string> names = JsonRows::names_in(line);
+    if (names.empty()) return false;
+    dialect_ = {Separator::comma, DecimalMark::point};  // of the numbers' texts
+    set_columns(names, fmt::format("{}:{}", name_, line_));
+    json_.emplace(std::move(names));
+    return true;
+  }
+
+  static bool is_blank(std::string_view line) { return line.find_first_not_of('\t') == std::string::npos; }
+
+  /// Takes a line when the dialect is known. One of tabs alone is a row of empty fields, if it has enough of
+  /// them.
+  void take_fields(std::string_view line, bool lifts) {
+    if (lifts) {
+      if (!table_.lifts.empty()) table_.lifts.back() = true;
+      return;
+    }
+    const std::vector<std::string>& fields = splitter_.split(line, dialect_->separator);
+    const bool is_row =
+        !is_blank(line) || (dialect_->separator == Separator::tab && fields.size() >= table_.columns.size());
+    if (is_row) take_row(fields);
   }
 
   /// Finds the dialect, and reads what waited for it.
   void begin_rows() {
     std::vector<std::string> lines;
     for (const Line& line : waiting_)
-      if (!line.lifts) lines.push_back(line.text);
+      if (!line.lifts && !is_blank(line.text)) lines.push_back(line.text);
     if (lines.empty())
       throw_input_error("{}: is empty; give a table with one row per sample, and a header above", name_);
-    dialect_ = find_dialect(lines, settings_, fields_of_most_);
+    std::size_t fields_of_most = 0;
+    dialect_ = find_dialect(lines, settings_, fields_of_most);
     if (!dialect_) refuse(lines);
+    shape_ = row_shape(lines, *dialect_, fields_of_most);
     refuse_thousands(lines);
     const std::size_t last = line_;
     for (const Line& line : std::exchange(waiting_, {})) {
       line_ = line.number;
-      if (line.lifts)
-        lift();
-      else
-        take_row(splitter_.split(line.text, dialect_->separator));
+      take_fields(line.text, line.lifts);
     }
     line_ = last;
   }
 
   [[noreturn]] void refuse(const std::vector<std::string>& lines) const {
     if (lines.size() == 1) throw_input_error("{}: has no samples; add at least one row", name_);
-    const auto second =
-        std::find_if(waiting_.begin() + 1, waiting_.end(), [](const Line& l) { return !l.lifts; });
+    const auto second = std::find_if(waiting_.begin() + 1, waiting_.end(),
+                                     [](const Line& l) { return !l.lifts && !is_blank(l.text); });
     throw_input_error(
         "{}:{}: '{}' is not a row of two or more numbers, with any known separator and decimal mark; give a "
         "table with one row per sample (--skip-lines and --skip leave out other lines)",
@@ -186,6 +186,7 @@ class TextTable::Rows {
   }
 
   void take_row(const std::vector<std::string>& fields) {
+    if ((table_.columns.empty() || after_header_) && empty_from(fields, 0)) return;
     if (table_.columns.empty()) {
       if (!settings_.columns.empty()) {
         set_columns(parts_of_list(settings_.columns), "--columns");
@@ -201,36 +202,17 @@ class TextTable::Rows {
 
   /// True if the row is a header, and no sample.
   bool take_header(const std::vector<std::string>& fields) {
-    const auto is_number = [&](const std::string& field) { return is_value(field, dialect_->decimal); };
     const std::string here = fmt::format("{}:{}", name_, line_);
-    const bool is_header = std::none_of(fields.begin(), fields.end(), is_number);
-    const bool names_all = fields.size() == fields_of_most_ ||
-                           (is_header && fields.size() > 1 && fields.size() + 1 == fields_of_most_) ||
-                           (fields.size() == fields_of_most_ + 1 && fields.back().empty());
-    if (!names_all)
+    const std::optional<TableHeader> header = table_header(fields, comment_, *dialect_, shape_);
+    if (!header)
       throw_input_error(
           "{}: the first line has {} fields ({}), but most lines have {}; leave it out with {} or {}", here,
-          fields.size(), excerpt(fmt::format("{}", fmt::join(fields, ", "))), fields_of_most_,
+          fields.size(), excerpt(fmt::format("{}", fmt::join(fields, ", "))), shape_.fields,
           option_and_key("skip_lines"), option_and_key("skip"));
-    if (is_header) {
-      std::vector<std::string> names = fields;
-      if (names.size() + 1 == fields_of_most_) names.insert(names.begin(), "row");  // R leaves it out
-      if (names.size() == fields_of_most_ + 1 && names.back().empty()) names.pop_back();
-      set_columns(names, here);
-      return true;
-    }
-    for (const Separator separator : {dialect_->separator, Separator::blanks, Separator::comma}) {
-      LineSplitter splitter;
-      const std::vector<std::string>& names = splitter.split(comment_, separator);
-      if (names.size() != fields.size() || std::any_of(names.begin(), names.end(), is_number)) continue;
-      set_columns(names, here);
-      return false;
-    }
-    std::vector<std::string> numbers;
-    for (std::size_t i = 1; i <= fields.size(); ++i) numbers.push_back(std::to_string(i));
-    has_no_header_ = true;
-    set_columns(numbers, here + " (no header names the columns)");
-    return false;
+    has_no_header_ = !header->found;
+    has_row_names_ = header->has_row_names;
+    set_columns(header->names, header->found ? here : here + " (no header names the columns)");
+    return header->is_row;
   }
 
   void set_columns(const std::vector<std::string>& names, const std::string& location) {
@@ -240,59 +222,28 @@ class TextTable::Rows {
   }
 
   bool take_units(const std::vector<std::string>& fields) {
-    const bool some =
-        std::any_of(fields.begin(), fields.end(), [](const auto& field) { return !field.empty(); });
-    if (!some || fields.size() != table_.columns.size() ||
-        !std::all_of(fields.begin(), fields.end(), is_unit_or_empty))
+    const std::size_t count = table_.columns.size();
+    if (fields.size() < count || !empty_from(fields, count) || !is_row_of_units(fields, *dialect_))
       return false;
-    for (std::size_t i = 0; i < fields.size(); ++i)
-      if (table_.columns[i].unit.empty() && fields[i] != "-") table_.columns[i].unit = bare_unit(fields[i]);
+    for (std::size_t i = 0; i < count; ++i)
+      if (table_.columns[i].unit.empty()) table_.columns[i].unit = bare_unit(fields[i]);
     return true;
   }
 
   void begin_samples() {
     after_header_ = false;
-    layout_ = table_layout(table_.columns, settings_, location_, of_first_);
-    const auto want = [&](const ColumnChoices& choices) {
-      for (const ColumnChoice& choice : choices) wanted_.push_back(choice.column);
-    };
-    want(layout_.position);
-    want(layout_.velocity);
-    want(layout_.force);
-    want(layout_.orientation);
-    if (layout_.pressure) wanted_.push_back(*layout_.pressure);
-    std::sort(wanted_.begin(), wanted_.end());
-    wanted_.erase(std::unique(wanted_.begin(), wanted_.end()), wanted_.end());
-    if (layout_.time) std::erase(wanted_, *layout_.time);
+    cells_ = SampleCells(table_layout(table_.columns, settings_, location_, of_first_), dialect_->decimal);
   }
 
   void take_sample(const std::vector<std::string>& fields) {
-    const bool ends_with_separator = fields.size() == table_.columns.size() + 1 && fields.back().empty();
-    if (fields.size() != table_.columns.size() && !ends_with_separator) {
+    const std::size_t count = table_.columns.size();
+    if (fields.size() != count && (fields.size() < count || !empty_from(fields, count))) {
       throw_input_error("{}:{}: {} fields instead of {} ({}); correct or remove the line", name_, line_,
-                        fields.size(), table_.columns.size(), all_names());
+                        fields.size(), count, all_names());
     }
-    if (layout_.time) {
-      const std::string& field = fields[*layout_.time];
-      std::string plain = field;
-      if (dialect_->decimal == DecimalMark::comma) std::replace(plain.begin(), plain.end(), ',', '.');
-      const auto time = stamps_.read(plain);
-      if (!time)
-        refuse_field(*layout_.time, field, "a time in the format of the rows before, or a finite number");
-      table_.columns[*layout_.time].values.push_back(*time);
-    }
-    for (const std::size_t column : wanted_) {
-      const auto value = field_number(fields[column], dialect_->decimal);
-      if (!value) refuse_field(column, fields[column], "a finite number");
-      table_.columns[column].values.push_back(*value);
-    }
+    cells_.read(fields, table_, name_, line_);
     table_.lines.push_back(line_);
     if (!pen_up_.empty()) table_.lifts.push_back(false);
-  }
-
-  [[noreturn]] void refuse_field(std::size_t column, const std::string& field, const char* wanted) const {
-    throw_input_error("{}:{}: column '{}': '{}' is not {}; correct or remove the line", name_, line_,
-                      table_.columns[column].name, excerpt(field), wanted);
   }
 
   std::string all_names() const {
@@ -312,14 +263,13 @@ class TextTable::Rows {
   std::size_t waiting_rows_ = 0;
   std::string comment_;  // the last one before the first row
   std::optional<Dialect> dialect_;
-  std::size_t fields_of_most_ = 0;
+  RowShape shape_;
+  std::optional<JsonRows> json_;
   LineSplitter splitter_;
   std::string location_;       // of the columns' names
   bool after_header_ = false;  // no sample yet
-  bool has_no_header_ = false;
-  TableLayout layout_;
-  std::vector<std::size_t> wanted_;  // columns to read, except the time
-  TimeStamps stamps_;
+  bool has_no_header_ = false, has_row_names_ = false;
+  SampleCells cells_;
   SampleTable table_;
 };
 

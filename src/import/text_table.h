@@ -17,9 +17,11 @@ namespace sandstroke {
 /// - the encoding by a byte-order mark or UTF-16's zeros; separator and decimal mark from the first rows
 ///   (Excel's line sep=; is obeyed);
 /// - a header: the first row without a number, or the comment before the first row if it has as many words
-///   (numpy); a row of units under it; R's header that lacks the column of row names.
+///   (numpy); a row of units under it; R's header that lacks the column of row names. Separators at the end
+///   of rows are no columns.
 ///
-/// It passes over blank lines, comments (# or %), and what settings.skip and skip_lines name.
+/// It passes over blank lines, comments (# or %), and what settings.skip and skip_lines name. A cell that is
+/// empty or says NaN is NaN in the table; so is text in a column that only perhaps tells of a pen.
 class TextTable {
  public:
   /// name: the file's name in messages. of_first: as in table_layout().

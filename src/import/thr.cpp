@@ -73,9 +73,10 @@ SampleTable parse_thr(std::string_view text, const std::string& name) {
     last = next;
   }
   if (points == 0) throw_input_error("{}: has no points; give lines of theta (rad) and rho (0 to 1)", name);
-  table.description =
-      fmt::format("theta-rho track of a sand table: {} points, {} samples along the spirals between them",
-                  points, table.size());
+  table.description = fmt::format(
+      "theta-rho track of a sand table: {} points, {} samples along the spirals between them, "
+      "theta grows clockwise from the top",
+      points, table.size());
   return table;
 }
 

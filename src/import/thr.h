@@ -9,10 +9,12 @@
 namespace sandstroke {
 
 /// Reads a track of a sand table (.thr): lines "theta rho", theta in rad, rho as a fraction of the table's
-/// radius; "#" begins a comment. Gives x = rho sin(theta) and y = rho cos(theta) in the unit "radius". Theta
-/// turns clockwise from the y axis, as in the tables' own programs (Sisyphus' programming guide: theta =
-/// arctan(x / y); Sandify, ThetaRhoExporter: atan2(x, y)). Between two lines both change evenly: the ball
-/// goes along Archimedean spirals. There is no time: tables go at a constant speed. Error: io, input.
+/// radius; "#" begins a comment. Gives x = rho sin(theta) and y = rho cos(theta) in the unit "radius", seen
+/// from above: theta = 0 is up (the y axis), and theta grows clockwise (pi/2 is to the right), as in the
+/// tables' own programs (Sisyphus' programming guide: theta = arctan(x / y); Sandify, ThetaRhoExporter:
+/// atan2(x, y)). It turns on beyond 2 pi; rho below 0 is across the centre. Between two lines both change
+/// evenly: the ball goes along Archimedean spirals. There is no time: tables go at a constant speed. Error:
+/// io, input.
 SampleTable read_thr(const std::filesystem::path& path);
 /// The same from text; `name` stands for the file in messages.
 SampleTable parse_thr(std::string_view text, const std::string& name);

@@ -127,8 +127,8 @@ SampleTable UnipenReader::table() {
   }
   if (!has_time && rate_ > 0.0) table_.columns.push_back({"time", "s", std::move(times_)});
   const auto strokes = 1 + std::count(table_.lifts.begin(), table_.lifts.end() - 1, true);
-  table_.description = fmt::format("UNIPEN: {} pen strokes, {} samples, columns {}", strokes, table_.size(),
-                                   fmt::join(names_, ", "));
+  table_.description = fmt::format("UNIPEN: {} pen strokes, {} samples, columns {}, y is taken to point up",
+                                   strokes, table_.size(), fmt::join(names_, ", "));
   return std::move(table_);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "haptics/gap_threshold.h"
 
 namespace sandstroke {
 namespace {
@@ -69,7 +70,8 @@ void write_stroke_attributes(Hdf5GridWriter& file, const Stroke& stroke) {
 void read_stroke_attributes(const Hdf5Reader& file, Stroke& stroke) {
   const auto has = [&](const char* attribute) { return file.has_attribute(stroke_group, attribute); };
   if (has("nominal_rate")) stroke.nominal_rate = file.number_attribute(stroke_group, "nominal_rate");
-  if (has("gap_threshold")) stroke.gap_threshold = file.number_attribute(stroke_group, "gap_threshold");
+  stroke.gap_threshold = has("gap_threshold") ? file.number_attribute(stroke_group, "gap_threshold")
+                                              : usual_gap_threshold(stroke);
   if (has("tip_speed")) stroke.tip_speed = file.number_attribute(stroke_group, "tip_speed");
   if (has("source")) stroke.source = file.text_attribute(stroke_group, "source");
   if (has("frame")) stroke.frame = file.text_attribute(stroke_group, "frame");

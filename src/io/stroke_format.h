@@ -25,7 +25,8 @@ void write_stroke_attributes(Hdf5GridWriter& file, const Stroke& stroke);
 /// Gives columns of /stroke, which must exist, their meaning, unit and axes as netCDF has them, so that
 /// xarray opens them. The first is time.
 void describe_stroke_columns(Hdf5GridWriter& file, const std::vector<std::string>& names);
-/// Reads the attributes. What is missing stays as it is. Error: input.
+/// Reads the attributes; the columns must be there. What is missing stays as it is, or is usual. Error:
+/// input.
 void read_stroke_attributes(const Hdf5Reader& file, Stroke& stroke);
 
 }  // namespace sandstroke

@@ -4,6 +4,7 @@
 #include <spdlog/fmt/ranges.h>
 
 #include "core/error.h"
+#include "haptics/gap_threshold.h"
 
 namespace sandstroke {
 namespace {
@@ -117,6 +118,7 @@ Stroke stroke_of(const py::dict& columns) {
   }
   for (const char* name : {"time", "position"})
     if (!columns.contains(name)) throw_input_error("stroke: needs the column {}", name);
+  if (!columns.contains("gap_threshold")) stroke.gap_threshold = usual_gap_threshold(stroke);
   check_stroke(stroke, "stroke");
   return stroke;
 }

@@ -161,7 +161,7 @@ const std::vector<Case> cases = {
     csv("NoRows", "x,y,z\n", {}),
     csv("MissingColumn", "x,y\n1,2\n", {"z"}),
     csv("ShortRow", "x,y,z\n1,2,3\n4,5\n", {"bad.csv:3"}),
-    csv("NanPosition", "x,y,z\n1,2,3\n4,nan,6\n", {"bad.csv:3"}),
+    csv("NanPosition", "x,y,z\n1,2,3\n4,nan,6\n", {"bad.csv:3", "--missing"}, {"--missing", "error"}),
     csv("NotANumber", "x,y,z\n1,2,three\n", {"bad.csv:2", "three"}),
     csv("DecreasingTime", "t,x,y,z\n0,1,2,3\n2,1,2,3\n1,1,2,3\n", {"bad.csv:4"},
         {"--time", "t", "--time-unit", "s"}),

@@ -111,6 +111,54 @@ TEST(CliStroke, ATableIsPlayedInOneLineAsIfConvertedFirst) {
   EXPECT_LT(RunFile(folder / "b.h5").final().minCoeff(), -0.002);
 }
 
+TEST(CliStroke, InfoShowsOfATableWhatConvertWouldMakeOfIt) {
+  const fs::path folder = test_folder();
+  write_file(folder / "log.csv", log_of_a_robot());
+  write_file(folder / "path.thr", "0 0\n3 0.5\n6 1\n");
+  const std::vector<std::vector<std::string>> cases = {
+      {"log.csv"},
+      {"log.csv", "--position", "x,-z,y", "--force", "none", "--rate", "50"},
+      {"path.thr", "--position-unit", "0.2", "--speed", "0.1"}};
+  for (std::vector<std::string> options : cases) {
+    const std::string file = options.front();
+    std::vector<std::string> convert = {"stroke", "convert", file, "made.h5", "--overwrite"};
+    convert.insert(convert.end(), options.begin() + 1, options.end());
+    options.insert(options.begin(), {"stroke", "info", "--json"});
+    const ProgramResult shown = run_program(options, folder);
+    ASSERT_EQ(shown.exit_code, 0) << shown.err;
+    ASSERT_EQ(run_program(convert, folder).exit_code, 0);
+    nlohmann::json of_table = nlohmann::json::parse(shown.out), of_stroke = info(folder, "made.h5");
+    EXPECT_EQ(of_stroke["source"], file);
+    of_table.erase("file");
+    of_stroke.erase("file");
+    EXPECT_EQ(of_table, of_stroke);
+    EXPECT_NE(shown.err.find("I " + file + ": "), std::string::npos) << shown.err;  // what was found
+  }
+  const ProgramResult recorded = run_program({"stroke", "info", "made.h5", "--rate", "50"}, folder);
+  EXPECT_EQ(recorded.exit_code, 2);
+  EXPECT_NE(recorded.err.find("made.h5: is a recorded stroke, which --rate does not change"),
+            std::string::npos)
+      << recorded.err;
+  EXPECT_EQ(run_program({"stroke", "info", "line.toml", "--rate", "50"}, folder).exit_code, 2);
+}
+
+/// A log of 10 Hz is one furrow, not one per sample.
+TEST(CliStroke, ASlowLogIsNotCutIntoDashes) {
+  const fs::path folder = test_folder();
+  std::string text = "t [s],x [m],y [m],z [m]\n";
+  for (int i = 0; i < 200; ++i)
+    text += fmt::format("{:.6f},{:.6f},0,-0.004\n", 0.1 * i + 0.004 * ((7 * i) % 3), 0.001 * i);
+  write_file(folder / "slow.csv", text);
+  const ProgramResult convert = run_program({"stroke", "convert", "slow.csv", "slow.h5"}, folder);
+  ASSERT_EQ(convert.exit_code, 0) << convert.err;
+  EXPECT_EQ(info(folder, "slow.h5")["gaps"].size(), 0u);
+  EXPECT_NE(convert.err.find("5 times the usual spacing"), std::string::npos) << convert.err;
+  EXPECT_EQ(convert.err.find("W "), std::string::npos) << convert.err;
+  const ProgramResult dashed =
+      run_program({"stroke", "convert", "slow.csv", "dashed.h5", "--gap-threshold", "0.1"}, folder);
+  EXPECT_NE(dashed.err.find("its furrow is dashed"), std::string::npos) << dashed.err;
+}
+
 TEST(CliStroke, ATableCanComeThroughAPipe) {
   const fs::path folder = test_folder();
   write_file(folder / "log.csv", log_of_a_robot());

@@ -51,6 +51,24 @@ TEST(InputFile, GivesAllBytesInOrder) {
   EXPECT_EQ(whole, text);
 }
 
+TEST(InputFile, GoesOnAtAnyByte) {
+  const TestFolder folder;
+  const std::string text = long_text();
+  write_text_file(folder / "file", text);
+  InputFile file(folder / "file");
+  std::string part(100, '\0');
+  for (const std::size_t at : {0ul, 50ul, 60'000ul, 65'536ul, 300'000ul, 7ul, 7ul, 131'071ul, 131'072ul}) {
+    file.seek(at);
+    const std::size_t count = file.read(part.data(), part.size());
+    EXPECT_EQ(part.substr(0, count), text.substr(at, part.size())) << at;
+    EXPECT_EQ(file.next_block().substr(0, 3), text.substr(std::min(at + count, text.size())).substr(0, 3))
+        << at;
+  }
+  file.seek(text.size() + 10);
+  EXPECT_EQ(file.read(part.data(), 1), 0u);
+  EXPECT_TRUE(file.next_block().empty());
+}
+
 TEST(InputFile, WhatTheDiskDoesNotGiveIsAnError) {
   const fs::path damaged = "/proc/self/mem";  // at address 0 there is nothing: reading it is an EIO
   for (const std::string& sentence : {refusal([&] { read_text_file(damaged); }, ErrorKind::io),

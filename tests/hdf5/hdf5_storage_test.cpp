@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <fstream>
+#include <iterator>
 #include <numeric>
 
 #include "core/error.h"
@@ -183,6 +185,34 @@ TEST_F(Hdf5Storage, OpensNoOtherFile) {
   EXPECT_SAYS(refusal([](const Hdf5Reader& file) { file.doubles("/y"); }), "/y is missing");
   EXPECT_FALSE(Hdf5Reader(path_).has("/y"));
   EXPECT_FALSE(Hdf5Reader(path_).has_attribute("/y", "unit"));
+}
+
+/// HDF5 1.10 itself would read what lies behind such a dataset.
+TEST(Hdf5StorageOfStrangers, ADatasetWithoutRoomForItsNumbersIsRefused) {
+  const TestFolder folder;
+  for (const H5D_layout_t layout : {H5D_CONTIGUOUS, H5D_COMPACT}) {
+    constexpr hsize_t count = 0x11E1;  // found nowhere else in the file
+    {
+      prepare_hdf5();
+      const Hdf5Handle file(H5Fcreate((folder / "a.h5").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
+                            H5Fclose);
+      const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+      H5Pset_layout(properties, layout);
+      const Hdf5Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
+      const Hdf5Handle dataset(
+          H5Dcreate2(file, "x", H5T_STD_I8LE, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose);
+      const std::vector<double> numbers(count, 1.0);
+      H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data());
+    }
+    EXPECT_EQ(Hdf5Reader(folder / "a.h5").doubles("/x").size(), count);
+    std::ifstream whole(folder / "a.h5", std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(whole), {}};
+    const std::size_t shape = bytes.find(std::string("\xE1\x11\0\0\0\0\0\0", 8));
+    ASSERT_NE(shape, std::string::npos);
+    for (const std::size_t at : {shape, shape + 8}) bytes[at + 2] = 1;  // 65,536 more, also at most
+    put_text(folder / "b.h5", bytes);
+    EXPECT_THROW(Hdf5Reader(folder / "b.h5").doubles("/x"), Error) << layout;
+  }
 }
 
 }  // namespace

@@ -76,6 +76,8 @@ TEST(TableAxes, PixelsCountDownwards) {
   const std::string text = "x,y\n1,2\n3,4\n";
   EXPECT_THAT(import_stroke_text(text, "in.csv", settings).warnings,
               ElementsAre(HasSubstr("--position) to \"x,-y\"")));
+  EXPECT_THAT(with_position("", "x_mm,y_mm,pressure\n1,2,5\n").warnings, ElementsAre(HasSubstr("x_mm,-y_mm")))
+      << "of a tablet";
   EXPECT_THAT(import_stroke_text("x,y\n1,-2\n3,-4\n", "in.csv", settings).warnings, ElementsAre())
       << "below the origin: somebody turned it over";
   settings.position = "x,-y";
@@ -133,12 +135,56 @@ TEST(TableAxes, OrientationsAreKeptAndTurned) {
     placement.rotate_z = 90.0;
     const Stroke placed = place_stroke(stroke, placement);
     EXPECT_TRUE((Quaterniond(placed.orientation[0]) * Vector3d(1, 0, 0)).isApprox(Vector3d(-1, 0, 0), 1e-9));
-    EXPECT_THAT(with_position("x,y,-z", text).stroke.orientation, ElementsAre());  // mirrored: there is none
   }
   EXPECT_THROW(with_position("x,y,z", "x_m,y_m,z_m,qx,qy,qz,qw\n0,0,0,0,0,0,0\n"), Error);
   EXPECT_THROW(
       with_position("x,y,z", "x_m,y_m,z_m,r11,r12,r13,r21,r22,r23,r31,r32,r33\n0,0,0,1,0,0,0,1,0,0,0,-1\n"),
       Error);
+}
+
+/// A plate leads along its own x, and is wide along its own y. Its mirror image does the same.
+TEST(TableAxes, OrientationsAreMirroredWithThem) {
+  const Eigen::Matrix3d turn =
+      (Eigen::AngleAxisd(0.7, Vector3d::UnitZ()) * Eigen::AngleAxisd(-0.4, Vector3d::UnitY()) *
+       Eigen::AngleAxisd(0.3, Vector3d::UnitX()))
+          .toRotationMatrix();
+  const Quaterniond q(turn);
+  const std::string text =
+      fmt::format("x_m,y_m,z_m,qx,qy,qz,qw\n1,2,3,{},{},{},{}\n", q.x(), q.y(), q.z(), q.w());
+  const std::string tail = "left-handed, so orientation qx, qy, qz, qw is mirrored, too";
+  struct Mirrored {
+    const char* position;
+    Eigen::Matrix3d axes;
+  };
+  Eigen::Matrix3d z_down, swapped, y_down;
+  z_down << 1, 0, 0, 0, 1, 0, 0, 0, -1;
+  swapped << 0, 1, 0, 1, 0, 0, 0, 0, 1;
+  y_down << 1, 0, 0, 0, -1, 0, 0, 0, 1;
+  for (const auto& [position, axes] :
+       {Mirrored{"x,y,-z", z_down}, Mirrored{"y,x,z", swapped}, Mirrored{"x,-y", y_down}}) {
+    const ImportedStroke made = with_position(position, text);
+    ASSERT_EQ(made.stroke.orientation.size(), 1u) << position;
+    const Eigen::Matrix3d tool = Quaterniond(made.stroke.orientation[0]).toRotationMatrix();
+    const Eigen::Matrix3d image = axes * turn;  // of the tool's axes
+    EXPECT_TRUE(tool.col(0).isApprox(image.col(0), 1e-9)) << position;
+    EXPECT_TRUE(tool.col(1).isApprox(-image.col(1), 1e-9)) << position;  // the other side
+    EXPECT_TRUE(tool.col(2).isApprox(image.col(2), 1e-9)) << position;
+    EXPECT_THAT(made.warnings, testing::Contains(HasSubstr(tail))) << position;
+  }
+}
+
+TEST(TableColumns, ThatAreFoundCanBeSwitchedOff) {
+  const std::string text =
+      "x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,fx_N,fy_N,fz_N,qx,qy,qz,qw,pressure\n1,2,3,4,5,6,7,8,9,0,0,0,1,5\n";
+  TableSettings settings;
+  settings.rate = 1.0;
+  EXPECT_FALSE(import_stroke_text(text, "in.csv", settings).stroke.force.empty());
+  settings.velocity = settings.force = settings.orientation = settings.pressure = "none";
+  const ImportedStroke made = import_stroke_text(text, "in.csv", settings);
+  EXPECT_TRUE(made.stroke.velocity.empty() && made.stroke.force.empty() && made.stroke.orientation.empty() &&
+              made.stroke.pressure.empty());
+  EXPECT_THAT(made.warnings, ElementsAre());
+  EXPECT_THAT(made.description, HasSubstr("not used: vx_mps, vy_mps"));
 }
 
 class MergedTables : public testing::Test {
@@ -202,6 +248,14 @@ TEST_F(MergedTables, TurnWithThePositionsColumns) {
   EXPECT_EQ(two.force, one.force);
   EXPECT_EQ(two.force[0], Vector3d(-2, 1, 3));
   for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(two.orientation[i].isApprox(one.orientation[i], 1e-15));
+}
+
+TEST_F(MergedTables, AForceWithoutAUnitIsAskedFor) {
+  EXPECT_THAT(
+      refusal("t_s,x_m,y_m\n0,0,0\n1,1,0\n",
+              "t_s,wrench.force.x,wrench.force.y,wrench.force.z\n0,1,2,3\n1,4,5,6\n"),
+      HasSubstr("second.csv: the unit of wrench.force.x, wrench.force.y, wrench.force.z is not known; "
+                "give stroke.table.force_unit (stroke convert: --force-unit)"));
 }
 
 TEST_F(MergedTables, OrientationsTurnTheShortestWay) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "complaint.h"
+#include "import/import_stroke.h"
 #include "test_folder.h"
 
 namespace sandstroke {
@@ -35,6 +36,8 @@ TEST(Formats, AreKnownByContent) {
   EXPECT_THAT(description("pen.dat", ".VERSION 1.0\n.COORD X Y\n.PEN_DOWN\n1 2\n"), StartsWith("UNIPEN"));
   EXPECT_THAT(description("pen", "\xEF\xBB\xBF<?xml version='1.0'?>\n<ink><trace>1 2</trace></ink>"),
               StartsWith("InkML"));
+  EXPECT_THAT(description("a.txt", "<?xml version='1.0'?><svg><path d='M1 1h1'/></svg>"), StartsWith("SVG"));
+  EXPECT_THAT(description("a.txt", "IN;SP1;PU0,0;PD40,40;"), StartsWith("HPGL"));
 }
 
 TEST(Formats, OrByEndingWhereContentCannotTell) {
@@ -59,21 +62,21 @@ TEST(Formats, KindsThatAreNotReadAreNamedWithTheWayOut) {
     std::string_view content;
     const char *kind, *way_out;
   } files[] = {
-      {"a.bag", "#ROSBAG V2.0\n", "a ROS 1 bag", "rosbags-convert"},
-      {"a.mcap", "\x89MCAP0\r\n", "an MCAP file", "ros2 bag convert"},
+      {"a.bag", "#ROSBAG V1.2\n", "a ROS 1 bag of another version", "rosbag fix"},
+      {"a.bag", "#ROSRECORD V1.1\n", "an old ROS 1 bag", "rosbag fix"},
+      {"a.mcap", "\x89MCAP1\r\n", "an MCAP file of another version", "ros2 bag convert"},
       {"a.xlsx", "PK\x03\x04...", "an Excel file", "CSV"},
       {"a.ods", "PK\x03\x04...", "a spreadsheet", "CSV"},
       {"a.zip", "PK\x03\x04...", "a zip archive", "unpack"},
       {"a.xls", "\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", "an old Excel", "CSV"},
       {"a", "PAR1...", "a Parquet file", "to_csv"},
-      {"a.npy", "\x93NUMPY\x01", "a NumPy file", "savetxt"},
+      {"a.npy", "\x93NUMPY\x01", "damaged or unknown header", "numpy.save"},
+      {"a.npz", "PK\x03\x04...", "damaged or cut off zip", "save it again"},
       {"a.h5", "\x89HDF\r\n\x1A\n", "an HDF5 file", "CSV"},
       {"a.csv", "%PDF-1.5", "a PDF", "name the file"},
       {"a.csv", "\x1F\x8B\x08", "packed by gzip", "gunzip"},
       {"a.json", "{\"x\": [1, 2]}", "JSON", "CSV"},
       {"a", "\n [ [1, 2], [3, 4]]", "JSON", "CSV"},
-      {"a.svg", "<svg xmlns=''/>", "an SVG drawing", "G-code"},
-      {"a.xml", "<?xml version='1.0'?><data/>", "XML or HTML", "CSV"},
       {"a.dat", std::string_view("\x01\x02\0\0\x05", 5), "neither text", "CSV"},
       {"a.db", std::string_view("SQLite format 3\0", 16), "", ""},
       {"a.mat", "x", "not a MATLAB file", "save it again"},
@@ -85,6 +88,27 @@ TEST(Formats, KindsThatAreNotReadAreNamedWithTheWayOut) {
 
 TEST(Formats, OnlySomeHaveParts) {
   EXPECT_THAT(complaint_of([] { sampled("a.thr", "0 0\n", "/tool"); }), HasSubstr("leave out --part /tool"));
+}
+
+TEST(Formats, OnlyGcodeAndTablesHaveWordsForThePen) {
+  const TestFolder folder;
+  for (const auto& [name, content] :
+       std::initializer_list<std::pair<const char*, const char*>>{{"a.thr", "0 0\n1 1\n"},
+                                                                  {"a.svg", "<svg><path d='M1 1h1'/></svg>"},
+                                                                  {"a.plt", "IN;PU0,0;PD40,40;"}}) {
+    const std::filesystem::path file = folder / name;
+    put_text(file, content);
+    for (std::string TableSettings::*key : {&TableSettings::pen_up, &TableSettings::pen_down}) {
+      TableSettings settings;
+      settings.*key = "UP";
+      EXPECT_THAT(complaint_of([&] { read_known_format(file, settings); }),
+                  HasSubstr("its format tells itself where the pen is up; leave out stroke.table.pen_"));
+    }
+  }
+  put_text(folder / "a.csv", "x,y,t\n1,2,3\n");
+  TableSettings settings;
+  settings.pen_down = "DOWN";
+  EXPECT_THAT(complaint_of([&] { import_stroke(folder / "a.csv", settings); }), HasSubstr("pen_down"));
 }
 
 TEST(Formats, AFolderOrNothingIsNoFile) {

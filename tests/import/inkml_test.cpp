@@ -20,7 +20,7 @@ TEST(Inkml, TracesOfXAndY) {
   const SampleTable table =
       ink("<traceGroup><trace>10 0, 9 14,\n 8.5 -28</trace></traceGroup><trace>1 2</trace>");
   EXPECT_THAT(column(table, "x").values, ElementsAre(10, 9, 8.5, 1));
-  EXPECT_THAT(column(table, "y").values, ElementsAre(0, 14, -28, 2));
+  EXPECT_THAT(column(table, "y").values, ElementsAre(0, -14, 28, -2));
   EXPECT_THAT(table.lifts, ElementsAre(false, false, true, true));
   EXPECT_THAT(table.description, HasSubstr("2 pen strokes, 4 samples"));
 }
@@ -30,13 +30,14 @@ TEST(Inkml, TracesOfXAndY) {
 TEST(Inkml, DifferencesOfFirstAndSecondOrder) {
   const SampleTable table = ink("<trace>1125 18432,'23'43,\"7\"-8,3-5,7 -3,6 2,6 8,3 6</trace>");
   EXPECT_THAT(column(table, "x").values, ElementsAre(1125, 1148, 1178, 1211, 1251, 1297, 1349, 1404));
-  EXPECT_THAT(column(table, "y").values, ElementsAre(18432, 18475, 18510, 18540, 18567, 18596, 18633, 18676));
+  EXPECT_THAT(column(table, "y").values,
+              ElementsAre(-18432, -18475, -18510, -18540, -18567, -18596, -18633, -18676));
 }
 
 TEST(Inkml, MarksStayInForceAndStarsRepeat) {
   const SampleTable table = ink("<trace>5 5, '1 *, * '2, !7 *</trace>");
   EXPECT_THAT(column(table, "x").values, ElementsAre(5, 6, 7, 7));
-  EXPECT_THAT(column(table, "y").values, ElementsAre(5, 5, 7, 9));
+  EXPECT_THAT(column(table, "y").values, ElementsAre(-5, -5, -7, -9));
 }
 
 TEST(Inkml, ChannelsHaveNamesAndUnits) {
@@ -54,10 +55,44 @@ TEST(Inkml, ChannelsHaveNamesAndUnits) {
   EXPECT_THAT(column(table, "x").values, ElementsAre(0.5, 0.6));
   EXPECT_EQ(column(table, "x").unit, "mm");
   EXPECT_EQ(column(table, "y").unit, "cm");
+  EXPECT_THAT(column(table, "y").values, ElementsAre(-2, -3));
   EXPECT_THAT(column(table, "pressure").values, ElementsAre(700, 710));
   EXPECT_EQ(column(table, "pressure").unit, "");
   EXPECT_THAT(column(table, "time").values, ElementsAre(0, 5));
   EXPECT_EQ(column(table, "time").unit, "ms");
+}
+
+/// The recommendation's table of channels: x grows to the right, y downwards, z upwards, if the orientation
+/// is not "-ve".
+TEST(Inkml, InkIsUprightInAnyUnit) {
+  for (const char* unit : {"cm", "mm", "in", "dev"})
+    for (const bool up : {false, true}) {
+      const SampleTable table = ink(fmt::format(
+          "<traceFormat><channel name='X' units='{0}'/><channel name='Y' units='{0}' orientation='{1}'/>"
+          "<channel name='Z'/></traceFormat><trace>1 2 3, 4 5 6</trace>",
+          unit, up ? "-ve" : "+ve"));
+      EXPECT_THAT(column(table, "x").values, ElementsAre(1, 4)) << unit;
+      EXPECT_THAT(column(table, "y").values, ElementsAre(up ? 2 : -2, up ? 5 : -5)) << unit;
+      EXPECT_THAT(column(table, "z").values, ElementsAre(3, 6)) << unit;
+      EXPECT_THAT(table.description, HasSubstr(up ? "y points up (orientation -ve) in the file"
+                                                  : "y points down in the file and is negated"));
+    }
+  EXPECT_THAT(column(ink("<traceFormat><channel name='X' orientation='-ve'/><channel name='Y'/></traceFormat>"
+                         "<trace>1 2</trace>"),
+                     "x")
+                  .values,
+              ElementsAre(-1));
+}
+
+TEST(Inkml, ValuesBeyondTheirChannelAreSaid) {
+  const std::string format =
+      "<traceFormat><channel name='X' max='100'/><channel name='Y' min='-5' max='5'/></traceFormat>"
+      "<channelProperties><channelProperty channel='X' name='resolution' value='7' units='1/mm'/>"
+      "<channelProperty channel='Y' name='resolution' value='7' units='1/mm'/></channelProperties>";
+  EXPECT_THAT(ink(format + "<trace>0 -5, 100 5</trace>").warnings, ElementsAre());
+  EXPECT_THAT(ink(format + "<trace>0 -5, 250 6</trace>").warnings,
+              ElementsAre(AllOf(HasSubstr("channel of x has values from 0 to 250"), HasSubstr("any to 100")),
+                          AllOf(HasSubstr("channel of y has values from -5 to 6"), HasSubstr("-5 to 5"))));
 }
 
 TEST(Inkml, TheRateGivesTimesThatAreNotWritten) {

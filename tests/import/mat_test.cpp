@@ -5,9 +5,11 @@
 #include <matio.h>
 
 #include <filesystem>
+#include <limits>
 #include <numeric>
 
 #include "complaint.h"
+#include "flipped.h"
 #include "import/import_stroke.h"
 #include "test_folder.h"
 
@@ -152,9 +154,10 @@ TEST(Mat, FieldsOfAStructAreColumns) {
   }
 }
 
-TEST(Mat, SamplesWithNaNAreLeftOut) {
+TEST(Mat, NaNIsDeliveredButColumnsOfNaNAreLeftOut) {
   const TestFolder folder;
-  double x[] = {1, std::nan(""), 3}, never[] = {std::nan(""), std::nan(""), std::nan("")};
+  double x[] = {1, std::nan(""), std::numeric_limits<double>::infinity()};
+  double never[] = {std::nan(""), std::nan(""), std::nan("")};
   {
     MatlabFile file(folder / "nan.mat");
     file.save(MatlabFile::of("x", MAT_C_DOUBLE, MAT_T_DOUBLE, 3, 1, x));
@@ -163,9 +166,16 @@ TEST(Mat, SamplesWithNaNAreLeftOut) {
   }
   const SampleTable table = read_mat(folder / "nan.mat");
   EXPECT_EQ(table.columns.size(), 2u);
-  EXPECT_THAT(column(table, "x").values, ElementsAre(1, 3));
-  EXPECT_THAT(column(table, "y").values, ElementsAre(7, 9));
-  EXPECT_THAT(table.description, HasSubstr("1 with NaN left out"));
+  EXPECT_THAT(column(table, "x").values, ElementsAre(1, testing::IsNan(), testing::IsNan()));
+  EXPECT_THAT(column(table, "y").values, ElementsAre(7, 8, 9));
+  EXPECT_THAT(table.description, HasSubstr("left out because all is NaN: never"));
+}
+
+TEST(Mat, ColumnsOfNaNAloneAreRefused) {
+  const TestFolder folder;
+  double never[] = {std::nan(""), std::nan("")};
+  MatlabFile(folder / "nan.mat").save(MatlabFile::of("x", MAT_C_DOUBLE, MAT_T_DOUBLE, 2, 1, never));
+  EXPECT_THAT(complaint_of([&] { read_mat(folder / "nan.mat"); }), HasSubstr("no finite number"));
 }
 
 TEST(Mat, SaysWhatIsWrong) {
@@ -194,6 +204,41 @@ TEST(Mat, FilesThatAreCutOffAreRefusedOrShorter) {
                                std::filesystem::copy_options::overwrite_existing);
     std::filesystem::resize_file(folder / "cut.mat", kept);
     complaint_of([&] { read_mat(folder / "cut.mat"); });
+  }
+}
+
+TEST(Mat, BigEndianFilesAreRead) {
+  const TestFolder folder;
+  const auto word = [](std::uint32_t value) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift);
+    return bytes;
+  };
+  const std::string number = std::string("\x3F\xF8", 2) + std::string(6, '\0');  // 1.5
+  const std::string level4 = word(1000) + word(2) + word(1) + word(0) + word(2) + std::string("x", 2);
+  put_text(folder / "four.mat", level4 + number + number);
+  EXPECT_THAT(column(read_mat(folder / "four.mat"), "x").values, ElementsAre(1.5, 1.5));
+  const std::string matrix = word(6) + word(8) + word(6) + word(0) +  // flags: double
+                             word(5) + word(8) + word(2) + word(1) +  // 2 x 1
+                             word(0x00010001) + std::string("x\0\0\0", 4) + word(9) + word(16) + number +
+                             number;
+  std::string header(124, ' ');
+  put_text(folder / "five.mat", header + std::string("\1\0MI", 4) + word(14) +
+                                    word(static_cast<std::uint32_t>(matrix.size())) + matrix);
+  EXPECT_THAT(column(read_mat(folder / "five.mat"), "x").values, ElementsAre(1.5, 1.5));
+}
+
+TEST(Mat, FlippedBitsGiveSentences) {
+  const TestFolder folder;
+  for (const mat_ft version : {MAT_FT_MAT4, MAT_FT_MAT5}) {
+    const std::filesystem::path path = folder / fmt::format("{}.mat", static_cast<int>(version));
+    {
+      MatlabFile file(path, version);
+      file.save(MatlabFile::matrix("pos", 8, 3, 1));
+      file.save(MatlabFile::matrix("t", 8, 1, 0), MAT_COMPRESSION_ZLIB);
+      if (version == MAT_FT_MAT5) save_struct(file);
+    }
+    expect_answers_to_flips(path, [](const std::filesystem::path& flipped) { return read_mat(flipped); });
   }
 }
 

@@ -205,9 +205,7 @@ TEST(TextTable, SaysWhichLineIsBad) {
   EXPECT_THAT(complaint(header + "1,2,3\n", format),
               AllOf(HasSubstr("in.csv:3:"), HasSubstr("3 fields instead of 4 ")));
   EXPECT_THAT(complaint(header + "1,2,3,4,5\n", format), HasSubstr("in.csv:3: 5 fields instead of 4 "));
-  EXPECT_THAT(complaint(header + "1,2,,4\n", format),
-              AllOf(HasSubstr("in.csv:3:"), HasSubstr("column 'y': ''")));
-  for (const std::string bad : {"nan", "inf", "-inf", "abc", "1.5mm", "1e999", "0x10", "1 2", "--1"})
+  for (const std::string bad : {"inf", "-inf", "abc", "1.5mm", "1e999", "0x10", "1 2", "--1"})
     EXPECT_THAT(complaint(header + "\n1,2,3," + bad + "\n", format),
                 AllOf(HasSubstr("in.csv:4:"), HasSubstr("'" + bad + "'")))
         << bad;

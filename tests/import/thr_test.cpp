@@ -25,6 +25,7 @@ TEST(Thr, ThetaTurnsClockwiseFromTheYAxis) {
   EXPECT_DOUBLE_EQ(table.columns[1].values.front(), 1.0);
   EXPECT_DOUBLE_EQ(table.columns[0].values.back(), 0.5);
   EXPECT_NEAR(table.columns[1].values.back(), 0.0, 1e-16);
+  EXPECT_THAT(table.description, HasSubstr("theta grows clockwise from the top"));
 }
 
 TEST(Thr, TurningAtTheCentreAndStandingGiveNoPoints) {

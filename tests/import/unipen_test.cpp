@@ -25,6 +25,7 @@ TEST(Unipen, PenStrokesAreKeptApart) {
   EXPECT_THAT(table.lines, ElementsAre(7u, 8u, 11u));
   EXPECT_EQ(table.columns.size(), 2u);
   EXPECT_THAT(table.description, HasSubstr("2 pen strokes, 3 samples"));
+  EXPECT_THAT(table.description, HasSubstr("y is taken to point up"));
 }
 
 TEST(Unipen, PointsPerInchGiveMillimetres) {

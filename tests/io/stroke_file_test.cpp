@@ -160,7 +160,7 @@ TEST_F(StrokeFile, OnlyFormatAndVersionAreRequired) {
   }));
   EXPECT_EQ(stroke.size(), 3u);
   EXPECT_EQ(stroke.frame, "bed");
-  EXPECT_EQ(stroke.gap_threshold, 0.1);
+  EXPECT_DOUBLE_EQ(stroke.gap_threshold, 0.5);  // five times the usual spacing
   EXPECT_TRUE(stroke.complete);
 }
 

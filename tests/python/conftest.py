@@ -1,9 +1,12 @@
-import importlib
 import os
 import pathlib
+import sys
 
 import numpy as np
 import pytest
+
+sys.path.append(str(pathlib.Path(__file__).parents[1]))
+from needs import needs  # noqa: E402, F401: for the tests
 
 PROGRAM = os.environ["SANDSTROKE_PROGRAM"]
 SOURCE = pathlib.Path(os.environ["SANDSTROKE_SOURCE"])
@@ -26,12 +29,3 @@ def line():
     """A straight drag 3 mm deep: time, x, y, z."""
     time = np.arange(0.0, 0.4, 1e-3)
     return np.column_stack([time, -0.05 + 0.25 * time, 0.0 * time, np.full_like(time, -0.003)])
-
-
-def needs(module):
-    """A module of somebody else's; where it is missing the test is skipped, in continuous integration it fails."""
-    try:
-        return importlib.import_module(module)
-    except ImportError:
-        message = f"the Python module {module} is not installed; tools/setup installs it"
-        pytest.fail(message) if os.environ.get("CI") else pytest.skip(message)

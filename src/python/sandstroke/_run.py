@@ -134,8 +134,9 @@ def run(scene: SceneLike, stroke: StrokeLike | None = None, *, settings: Mapping
 
     scene: a TOML file, a mapping, or a Scene. stroke, instead of the scene's: a file, an array of time [s], x, y, z
     [m] in four columns, or a mapping of "time" (n,) and "position" (n, 3), and perhaps "velocity", "force" (n, 3),
-    "orientation" (n, 4: x, y, z, w), "pressure" and "pen_down" (n,). Samples more than 0.1 s apart are not joined: the
-    tool is lifted between them ("gap_threshold" [s] in a mapping changes that). settings: other values for keys of the
+    "orientation" (n, 4: x, y, z, w), "pressure" and "pen_down" (n,). Samples more than 0.1 s apart, or five times
+    the usual spacing if that is more, are not joined: the tool is lifted between them ("gap_threshold" [s] in a mapping
+    changes that). settings: other values for keys of the
     scene, as {"relaxation.talus_angle": 34}. surface: heights to start from [m], (rows, columns) of the bed, instead of
     the scene's. output: also write the run file (.h5). threads: 0 is all cores; the result does not depend on it.
 

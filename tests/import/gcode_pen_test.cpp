@@ -1,0 +1,110 @@
+#include "import/gcode_pen.h"
+
+#include <gmock/gmock-matchers.h>
+#include <gtest/gtest.h>
+
+#include "gcode_tables.h"
+
+namespace sandstroke {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+SampleTable drawn(const std::string& text, const std::string& up, const std::string& down = "") {
+  return parse_gcode(text, "path.gcode", up, down);
+}
+
+/// Up to x = 10, then a line from 10 to 40 at y = 10, and one from (40, 40) to (10, 40).
+constexpr const char* servo =
+    "G21\nG90\n{0}\nG1 X10 Y10 F2000\n{1}\nG1 X40 Y10\n{0}\nG1 X40 Y40\n{1}\nG1 X10 Y40\n{0}\n";
+
+TEST(GcodePen, AServoOfAnyWordIsLiftedByTheOneThatIsNamed) {
+  const struct {
+    const char *up, *down, *pen_up, *pen_down;
+  } pens[] = {
+      {"M3 S30", "M3 S90", "M3 S30", ""},
+      {"M3 S30", "M3 S90", "", "M3 S90"},
+      {"M3 S30", "S90", "M3 S30", ""},
+      {"M3 S30", "M3 S90", "M3 S30", "M3 S90"},
+      {"M03 S30.0", "M3 S90", "M3 S30", ""},
+      {"M5", "M3 S90", "M5", ""},
+      {"M4", "M3", "M4", ""},
+      {"M280 P0 S30", "M280 P0 S90", "M280 S30", ""},
+      {"M280 P0 S30", "M280 P0 S90", "", "M280 S90"},
+      {"M107", "M106 S255", "M107", "M106"},
+      {"M42 P4 S0", "M42 P4 S255", "m42 s0", ""},
+      {"M400\nM300 S50", "M300 S30", "M300 S50", ""},
+      {"S30 M3", "S90 M3", "M3 S30", ""},
+  };
+  for (const auto& pen : pens) {
+    const SampleTable table =
+        drawn(fmt::format(fmt::runtime(servo), pen.up, pen.down), pen.pen_up, pen.pen_down);
+    EXPECT_THAT(gcode_values(table, "x"), ElementsAre(10, 40, 40, 10)) << pen.up << " / " << pen.pen_up;
+    EXPECT_THAT(gcode_values(table, "y"), ElementsAre(10, 10, 40, 40)) << pen.up;
+    EXPECT_THAT(table.lifts, ElementsAre(false, true, false, false)) << pen.up;
+    EXPECT_THAT(table.warnings, ElementsAre()) << pen.up;
+  }
+}
+
+TEST(GcodePen, AsksWhichOfTwoPositionsLifts) {
+  for (const char* m : {"M3", "M4"}) {
+    const std::string path =
+        fmt::format(fmt::runtime(servo), fmt::format("{} S30", m), fmt::format("{} S90", m));
+    const std::string asked = gcode_complaint(path);
+    EXPECT_THAT(asked, AllOf(HasSubstr("path.gcode:3: "), HasSubstr("S 30 and 90"),
+                             HasSubstr("stroke.table.pen_up (stroke convert: --pen-up)")));
+    // Both ways out that it names work.
+    const std::string lifts = fmt::format("{} S30", m);
+    EXPECT_THAT(asked, AllOf(HasSubstr("\"" + lifts + "\""), HasSubstr("\"M5\"")));
+    EXPECT_EQ(drawn(path, lifts).size(), 4u);
+    EXPECT_EQ(path_length(drawn(path, "M5")), 90.0);
+  }
+}
+
+TEST(GcodePen, AsksNothingWhereThePathTells) {
+  const char* known[] = {
+      "M3 S300\nG1 X1 Y0\nX2\nM5\nG1 X5\nM3 S500\nX6\nM5\n",              // M5 lifts
+      "M3 S300\nG1 X1 Y0\nX2\nM3 S0\nG1 X5\nM3 S500\nX6\n",               // so does S0
+      "M4 S0\nG1 X1 Y0\nX2 S300\nX5 S500\nX6 S20\n",                      // shades of a laser
+      "M3 S8000\nG0 Z5\nG0 X0 Y0\nG1 Z-1\nX1\nG0 Z5\nM3 S9000\nX3\n",     // Z lifts
+      "M3 S30\nG0 X1 Y0\nM3 S90\nG1 X2\nM3 S30\nG0 X5\nM3 S90\nG1 X6\n",  // G0 travels
+      "M3 S30\nG1 X1 Y0\nX2\n",
+  };
+  for (const char* path : known) EXPECT_EQ(gcode_complaint(path), "") << path;
+  EXPECT_THAT(gcode_values(gcode_table(known[4]), "x"), ElementsAre(1, 2, 5, 6));
+}
+
+TEST(GcodePen, G0DrawsWithAServoThatIsDown) {
+  const std::string path = "M280 S90\nG0 X0 Y0\nM280 S30\nG0 X5\nM280 S90\nG0 X9\n";
+  const SampleTable table = drawn(path, "M280 S90");
+  EXPECT_THAT(gcode_values(table, "x"), ElementsAre(0, 5));
+  EXPECT_THAT(table.description, HasSubstr("G0 draws too where the pen is down"));
+}
+
+TEST(GcodePen, G0MayBeTheWordThatLifts) {
+  const std::string path = "G0 X0 Y0\nG1 X5\nG0 Y5\nG1 X0\n";
+  const SampleTable table = drawn(path, "G0");
+  EXPECT_THAT(gcode_values(table, "y"), ElementsAre(0, 0, 5, 5));
+  EXPECT_THAT(table.lifts, ElementsAre(false, true, false, false));
+  EXPECT_THAT(table.description, HasSubstr("G0 moves the pen"));
+}
+
+TEST(GcodePen, SaysWhatIsWrong) {
+  const std::string path = fmt::format(fmt::runtime(servo), "M3 S30", "M3 S90");
+  const auto complaint = [&](const std::string& up, const std::string& down) {
+    return complaint_of([&] { drawn(path, up, down); });
+  };
+  for (const char* word : {"S90", "G1", "M3 S30, M5", "M117 up", "up", "M3 M5", "G0 Z5"})
+    EXPECT_THAT(complaint(word, ""), HasSubstr("pen_up")) << word;
+  EXPECT_THAT(complaint("M3 S30", "M3 S30"), HasSubstr("are the same word"));
+  EXPECT_THAT(complaint("", "G0"), HasSubstr("G0 never draws"));
+  EXPECT_THAT(complaint("", "M106"), HasSubstr("no line has M106, so the pen is never down"));
+  EXPECT_THAT(complaint("M3", ""), HasSubstr("pen_up = \"M3\" lifts it all the time"));
+  EXPECT_THAT(drawn(path, "M3 S45").warnings,
+              ElementsAre(HasSubstr("no line has M3 S45, so the pen never lifts")));
+}
+
+}  // namespace
+}  // namespace sandstroke

@@ -1,0 +1,371 @@
+#include <gmock/gmock-matchers.h>
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <cmath>
+
+#include "complaint.h"
+#include "import/column_name.h"
+#include "import/import_stroke.h"
+#include "import/text_table.h"
+
+namespace sandstroke {
+namespace {
+
+using Eigen::Vector3d;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+/// Times and units that a layout does not say.
+TableSettings metres_at_10_hz() {
+  TableSettings settings;
+  settings.rate = 10.0;
+  settings.position_unit = "m";
+  return settings;
+}
+
+ImportedStroke imported(const std::string& text, const TableSettings& settings = metres_at_10_hz()) {
+  return import_stroke_text(text, "in.csv", settings);
+}
+
+std::string layout_refusal(const std::string& text, const TableSettings& settings = metres_at_10_hz()) {
+  return complaint_of([&] { imported(text, settings); });
+}
+
+SampleTable layout_table(const std::string& text, const TableSettings& settings = metres_at_10_hz()) {
+  TextTable table("in.csv", settings);
+  table.read(text);
+  return table.take();
+}
+
+struct LaidOut {
+  const char* what;
+  std::string text;
+  Vector3d first = Vector3d(5, 6, 7);
+  std::string position = {}, columns = {};
+};
+
+class Layouts : public testing::TestWithParam<LaidOut> {};
+
+/// The first sample is at (5, 6, 7), or as the case says.
+TEST_P(Layouts, TheColumnsAreFound) {
+  TableSettings settings = metres_at_10_hz();
+  settings.position = GetParam().position;
+  settings.columns = GetParam().columns;
+  const ImportedStroke found = imported(GetParam().text, settings);
+  EXPECT_EQ(found.stroke.position.at(0), GetParam().first) << found.description;
+  EXPECT_EQ(found.stroke.size(), 2u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Tables, Layouts,
+    testing::Values(
+        // separators at the end of rows, of the header, of both
+        LaidOut{"rows end in commas", "x,y,z,b\n5,6,7,0,\n5,6,8,0,\n"},
+        LaidOut{"rows end in semicolons", "x;y;z\n5;6;7;\n5;6;8;\n"},
+        LaidOut{"rows end in tabs", "x\ty\tz\n5\t6\t7\t\n5\t6\t8\t\n"},
+        LaidOut{"rows end in two separators", "x,y,z\n5,6,7,,\n5,6,8,,\n"},
+        LaidOut{"the header does, too", "x,y,z,\n5,6,7,\n5,6,8,\n"},
+        LaidOut{"only the header does", "x,y,z,,\n5,6,7\n5,6,8\n"},
+        LaidOut{"only the header does, by tabs", "x\ty\tz\t\t\n5\t6\t7\n5\t6\t8\n"},
+        LaidOut{"some rows do", "x,y,z\n5,6,7,\n5,6,8\n"}, LaidOut{"one row", "x,y,z\n5,6,7,\n5,6,8,\n"},
+        LaidOut{"no header", "5,6,7,\n5,6,8,\n", {5, 6, 7}, "1,2,3"},
+        LaidOut{"names that are given", "5,6,7,\n5,6,8,\n", {5, 6, 7}, "c,d,e", "c,d,e"},
+        LaidOut{"names in a comment", "# x,y,z\n5,6,7,\n5,6,8,\n"},
+        LaidOut{"decimal commas", "x;y;z\n5,5;6;7;\n5;6;8;\n", {5.5, 6, 7}},
+        LaidOut{"an empty column with a name", "x,y,z,note\n5,6,7,\n5,6,8,\n"},
+        LaidOut{"empty rows before the header", ",,\n,,\nx,y,z\n,,\n5,6,7\n5,6,8\n"},
+        // rows that have names
+        LaidOut{"row names", "x,y,z\n1,5,6,7\n2,5,6,8\n"},
+        LaidOut{"row names of text", "x y z\na 5 6 7\nb 5 6 8\n"},
+        LaidOut{"row names, and separators at the end", "x,y,z\n1,5,6,7,\n2,5,6,8,\n"},
+        LaidOut{"row names with an empty last cell", "x,y,z,b\n1,5,6,7,0\n2,5,6,8,\n"},
+        LaidOut{"an index without a name", ",x,y,z\n0,5,6,7\n1,5,6,8\n"},
+        // names that are empty
+        LaidOut{"tabs begin the header", "\t\tX1\tY1\tZ1\n1\t0\t5\t6\t7\n2\t0.01\t5\t6\t8\n"},
+        LaidOut{"tabs begin all lines", "\tx\ty\tz\n\t5\t6\t7\n\t5\t6\t8\n"},
+        LaidOut{"an unnamed column is called by its number", ",x,y,\n5,6,3,7\n5,6,3,8\n", {5, 6, 7}, "1,2,4"},
+        // names
+        LaidOut{"x_pos", "x_pos,y_pos,z_pos\n5,6,7\n5,6,8\n"},
+        LaidOut{"X Position (m)", "X Position (m),Y Position (m),Z Position (m)\n5,6,7\n5,6,8\n"},
+        LaidOut{"Position X", "Position X,Position Y,Position Z\n5,6,7\n5,6,8\n"},
+        LaidOut{"PosX", "PosX,PosY,PosZ\n5,6,7\n5,6,8\n"},
+        LaidOut{"pos.x", "pos.x,pos.y,pos.z\n5,6,7\n5,6,8\n"},
+        LaidOut{"Position(x)", "Position(x),Position(y),Position(z)\n5,6,7\n5,6,8\n"},
+        LaidOut{"x-position", "x-position,y-position,z-position\n5,6,7\n5,6,8\n"},
+        LaidOut{"tip x pos", "tip x pos,tip y pos,tip z pos\n5,6,7\n5,6,8\n"},
+        LaidOut{"px", "px,py,pz\n5,6,7\n5,6,8\n"},
+        LaidOut{"one marker", "Frame,X1,Y1,Z1\n1,5,6,7\n2,5,6,8\n"},
+        LaidOut{"one marker of Qualisys",
+                "Frame\tTime\ttip X\ttip Y\ttip Z\n1\t0\t5\t6\t7\n2\t.1\t5\t6\t8\n"},
+        LaidOut{"MATLAB's splitvars", "pos_1,pos_2,pos_3\n5,6,7\n5,6,8\n"},
+        LaidOut{"numbers from 0", "pos[0],pos[1],pos[2]\n5,6,7\n5,6,8\n"},
+        LaidOut{
+            "UR robots",
+            "actual_TCP_pose_0 actual_TCP_pose_1 actual_TCP_pose_2 actual_TCP_pose_3 actual_TCP_pose_4 "
+            "actual_TCP_pose_5 target_TCP_pose_0 target_TCP_pose_1 target_TCP_pose_2 actual_q_0 actual_q_1 "
+            "actual_q_2\n5 6 7 0 0 0 1 1 1 2 2 2\n5 6 8 0 0 0 1 1 1 2 2 2\n"},
+        LaidOut{"Franka robots",
+                "O_T_EE[0],O_T_EE[1],O_T_EE[2],O_T_EE[3],O_T_EE[4],O_T_EE[5],O_T_EE[6],O_T_EE[7],O_T_EE[8],"
+                "O_T_EE[9],O_T_EE[10],O_T_EE[11],O_T_EE[12],O_T_EE[13],O_T_EE[14],O_T_EE[15],O_T_EE_d[12]\n"
+                "1,0,0,0,0,1,0,0,0,0,1,0,5,6,7,1,9\n1,0,0,0,0,1,0,0,0,0,1,0,5,6,8,1,9\n"},
+        LaidOut{"large letters of which each is there once", "x,y,Z\n5,6,7\n5,6,8\n"},
+        LaidOut{"a pen that tilts", "penX,penY,tiltX,tiltY\n5,6,1,1\n5,7,1,1\n", {5, 6, 0}},
+        LaidOut{"names twice, chosen by number",
+                "Frame,X,Y,Z,W,X,Y,Z,\n0,0,0,0,1,5,6,7,\n1,0,0,0,1,5,6,8,\n",
+                {5, 6, 7},
+                "6,7,8"}),
+    [](const auto& tested) {
+      std::string name;
+      for (const char c : std::string(tested.param.what))
+        if (std::isalnum(static_cast<unsigned char>(c))) name += c;
+      return name + std::to_string(tested.index);
+    });
+
+TEST(TableLayouts, SeparatorsAndRowNamesAreSaid) {
+  EXPECT_THAT(imported("x,y,z\n5,6,7,\n").description,
+              AllOf(HasSubstr("3 columns"), HasSubstr("separators at the end of rows")));
+  EXPECT_THAT(imported("x,y,z\n1,5,6,7\n").description,
+              AllOf(HasSubstr("4 columns"), HasSubstr("names of rows in the first one")));
+  EXPECT_THAT(imported("x,y,z\n5,6,7\n").description,
+              AllOf(Not(HasSubstr("separators")), Not(HasSubstr("names of rows"))));
+}
+
+TEST(TableLayouts, AFieldBeyondTheColumnsIsRefused) {
+  std::string text = "x,y,z\n";
+  for (int i = 0; i < 70; ++i) text += "5,6,7,\n";
+  EXPECT_THAT(layout_refusal(text + "5,6,7,8\n"), HasSubstr("in.csv:72: 4 fields instead of 3 (x, y, z)"));
+  EXPECT_THAT(layout_refusal(text + "5,6\n"), HasSubstr("in.csv:72: 2 fields instead of 3"));
+  EXPECT_THAT(layout_refusal("a,b,c,d,e\n5,6,7\n5,6,8\n"), HasSubstr("the first line has 5 fields"));
+  EXPECT_THAT(layout_refusal("x,y\n1,2,5,6,7\n1,2,5,6,8\n"), HasSubstr("the first line has 2 fields"));
+}
+
+TEST(TableLayouts, EqualCandidatesAreAskedFor) {
+  EXPECT_THAT(
+      layout_refusal("t,x,y,X,Y,Z\n0,640,480,0.1,0.2,0.3\n"),
+      AllOf(HasSubstr("in.csv:1: columns 'X' and 'x' may both be the position"), HasSubstr("--position")));
+  EXPECT_THAT(layout_refusal("x [px],y [px],x [m],y [m],z [m]\n1,2,3,4,5\n"),
+              HasSubstr("may both be the position"));
+  EXPECT_THAT(layout_refusal("X1,Y1,Z1,X2,Y2,Z2\n1,2,3,4,5,6\n"), HasSubstr("'X1' and 'X2' may both be"));
+  EXPECT_THAT(layout_refusal("x,y,vx,vy,VX,VY\n1,2,3,4,5,6\n"), HasSubstr("may both be the velocity"));
+  EXPECT_THAT(layout_refusal("x,y,fx,fy,FX,FY\n1,2,3,4,5,6\n"),
+              AllOf(HasSubstr("may both be the force"), HasSubstr("--force)")));
+  EXPECT_THAT(layout_refusal("x,y,left_fx,left_fy,right_fx,right_fy\n1,2,3,4,5,6\n"), HasSubstr("--force)"));
+  EXPECT_THAT(
+      layout_refusal("Frame,X,Y,Z,W,X,Y,Z\n0,0,0,0,1,5,6,7\n"),
+      HasSubstr("2 columns are named 'X', which are the numbers 2 and 6; give each its own name, or choose "
+                "columns by their numbers with stroke.table.position (stroke convert: --position)"));
+  TableSettings named = metres_at_10_hz();
+  named.position = "X,Y,Z";
+  EXPECT_EQ(imported("t,x,y,X,Y,Z\n0,640,480,0.1,0.2,0.3\n", named).stroke.position[0],
+            Vector3d(0.1, 0.2, 0.3));
+}
+
+TEST(TableLayouts, NamesOfOtherQuantitiesAreNoPosition) {
+  for (const char* names :
+       {"TX,TY,TZ", "accX,accY,accZ", "x_accel,y_accel,z_accel", "x_target,y_target,z_target",
+        "joint_position_0,joint_position_1,joint_position_2", "pos_1,pos_2,pos_3,pos_4"}) {
+    std::string numbers = "1,2,3,4";
+    numbers.resize(std::string(names).find("pos_4") == std::string::npos ? 5 : 7);
+    EXPECT_THAT(layout_refusal(std::string(names) + "\n" + numbers + "\n"), HasSubstr("--position)"))
+        << names;
+  }
+}
+
+TEST(TableUnitsInWords, AreRead) {
+  struct Case {
+    const char* text;
+    Vector3d position;
+    double time;
+  };
+  TableSettings none;
+  for (const Case& one :
+       {Case{"Frame,Time (Seconds),X (Meters),Y (meters),Z (METERS)\n0,0,0,0,0\n1,0.5,1,2,3\n",
+             {1, 2, 3},
+             0.5},
+        {"time [sec],x [Millimetres],y [Millimetres]\n0,0,0\n0.5,1,2\n", {0.001, 0.002, 0}, 0.5},
+        {"Time,X,Y\nSeconds,Inches,inches\n0,0,0\n0.5,1,2\n", {0.0254, 0.0508, 0}, 0.5},
+        {"Time,X,Y,angle\n(ms),(microns),(microns),(degrees)\n0,0,0,1\n5,1,2,1\n", {1e-6, 2e-6, 0}, 0.005},
+        {"Time\tX\tY\nmilliseconds\tcentimeters\tcentimeters\t\n0\t0\t0\n5\t1\t2\n", {0.01, 0.02, 0}, 0.005},
+        {"Sub Frame,T_MS,X_MM,Y_MM\n0,0,0,0\n0,5,1,2\n", {0.001, 0.002, 0}, 0.005},
+        {"seconds,x_m,y_m\n0,0,0\n5,1,2\n", {1, 2, 0}, 5}}) {
+    const Stroke stroke = imported(one.text, none).stroke;
+    EXPECT_EQ(stroke.position.at(1), one.position) << one.text;
+    EXPECT_EQ(stroke.time.at(1), one.time) << one.text;
+  }
+}
+
+TEST(TableUnitsInWords, UnknownOnesNameTheFileTheColumnAndTheOption) {
+  EXPECT_THAT(layout_refusal("t [fortnights],x_m,y_m\n0,1,2\n", {}),
+              HasSubstr("in.csv: the unit of the times 't [fortnights]' is 'fortnights', which is none; give "
+                        "stroke.table.time_unit (stroke convert: --time-unit): s, ms, us, ns"));
+  EXPECT_THAT(layout_refusal("t [s],x [ticks],y [ticks]\n0,1,2\n", {}),
+              AllOf(HasSubstr("in.csv: the unit of x [ticks], y [ticks]: 'ticks' is not a unit of length"),
+                    HasSubstr("--position-unit"), HasSubstr("or a number of metres")));
+  TableSettings settings = metres_at_10_hz();
+  settings.force_unit = "MN";
+  EXPECT_THAT(layout_refusal("x,y,fx,fy\n1,2,3,4\n", settings),
+              AllOf(HasSubstr("'MN' is not a unit of force"), HasSubstr("--force-unit"),
+                    HasSubstr("or a number of newtons")));
+  settings.force_unit = "0.5";
+  EXPECT_EQ(imported("x,y,fx,fy\n1,2,3,4\n", settings).stroke.force[0], Vector3d(1.5, 2, 0));
+  EXPECT_EQ(imported("x,y,fx [kgf],fy [kgf]\n1,2,1,2\n").stroke.force[0], Vector3d(9.80665, 19.6133, 0));
+}
+
+/// The values of a column, with -1 for a missing one.
+std::vector<double> values(const SampleTable& table, const std::string& name) {
+  std::vector<double> all = column(table, name).values;
+  for (double& value : all)
+    if (std::isnan(value)) value = -1.0;
+  return all;
+}
+
+TEST(TableMissing, CellsWithoutAValueAreNaN) {
+  for (const char* nothing : {"", "NaN", "nan", "-nan", "N/A", "NA", "n/a", "null", "NULL", "None", "-", "--",
+                              "#N/A", "nan(ind)", "-nan(ind)", "1.#QNAN"}) {
+    const std::string row = std::string(nothing) + "," + nothing;
+    const SampleTable table =
+        layout_table("a,x,y,fx,fy\n0,1,2," + row + "\n1," + row + "," + row + "\n2,3,4,5,6\n");
+    EXPECT_EQ(table.size(), 3u) << nothing;
+    EXPECT_THAT(values(table, "x"), ElementsAre(1, -1, 3)) << nothing;
+    EXPECT_THAT(values(table, "fy"), ElementsAre(-1, -1, 6)) << nothing;
+  }
+  EXPECT_THAT(values(layout_table("t_s;x;y\n0;1,5;2\n;-;2,5\n"), "x"), ElementsAre(1.5, -1));
+  TableSettings timed = metres_at_10_hz();
+  timed.rate = 0.0;
+  EXPECT_THAT(
+      values(layout_table("t,x,y\n,1,2\n1700000000123456789,1,2\n1700000000123456790,1,2\n", timed), "t"),
+      ElementsAre(-1, 0, 1));
+  EXPECT_EQ(layout_table("x\ty\n1\t2\n\t\n3\t4\n").size(), 3u) << "a row of tabs is a row without values";
+  EXPECT_EQ(layout_table("x\ty\tz\n1\t2\t3\n\t\n\n3\t4\t5\n").size(), 2u) << "a single tab is a blank line";
+}
+
+TEST(TableMissing, TextInAUsedColumnIsRefused) {
+  EXPECT_THAT(layout_refusal("x,y,note\n1,2,a\n3,b,c\n"),
+              HasSubstr("in.csv:3: column 'y': 'b' is not a finite number"));
+  EXPECT_THAT(layout_refusal("x,y\n1,2\n3,inf\n"), HasSubstr("'inf' is not a finite number"));
+  EXPECT_EQ(imported("x,y,note\n1,2,a\n3,4,inf\n").stroke.size(), 2u) << "in others it does no harm";
+}
+
+TEST(TableMissing, TheSeparatorIsFoundBesideEmptyCells) {
+  EXPECT_THAT(layout_table("t_s,x,y,z,a,b,c\n0,1,2,,,,\n").description,
+              HasSubstr("commas, decimal points, 7 columns"));
+  EXPECT_THAT(layout_table("t_s;x;y;z;a\n0,5;;;;\n1,5;1,5;2;;\n").description,
+              HasSubstr("semicolons, decimal commas"));
+  EXPECT_THAT(layout_table("t_s\tx\ty\tz\n0\t\t\t\n1\t1\t2\t\n2\t\t3\t\n").description, HasSubstr("tabs"));
+  EXPECT_THAT(layout_table("x y z\nnan nan nan\nnan nan nan\n").description, HasSubstr("spaces"));
+}
+
+TEST(TablePen, LiftsWhereTheStrokeNumberChanges) {
+  for (const char* name : {"stroke", "stroke_id", "strokeNumber", "Stroke Index"}) {
+    const ImportedStroke found = imported(std::string(name) + ",x,y\n0,1,1\n0,2,1\n1,5,5\n1,6,5\n");
+    EXPECT_THAT(found.stroke.contact, ElementsAre(pen_down, pen_lifts, pen_down, pen_down)) << name;
+    EXPECT_THAT(found.description, HasSubstr(": 2 strokes, between which the pen lifts"));
+    EXPECT_THAT(found.warnings, ElementsAre());
+  }
+  const ImportedStroke letters = imported("stroke,x,y\na,1,1\na,2,1\nb,5,5\nb,6,5\na,7,7\na,8,8\n");
+  EXPECT_THAT(letters.stroke.contact,
+              ElementsAre(pen_down, pen_lifts, pen_down, pen_lifts, pen_down, pen_down));
+  const std::string lengths = "stroke,x,y\n12,1,1\n12.5,2,1\n13,5,5\n13.5,6,5\n";
+  EXPECT_THAT(imported(lengths).stroke.contact, ElementsAre());
+  EXPECT_THAT(imported(lengths).warnings,
+              ElementsAre(HasSubstr("'stroke' changes too often to number strokes")));
+}
+
+TEST(TablePen, IsDownWhereItsStateIsNot0) {
+  const auto down = [](const std::string& text) { return imported(text).stroke.contact; };
+  const auto expected = ElementsAre(pen_down, pen_up, pen_down);
+  for (const char* name : {"pen", "pen_state", "PenDown", "tip_down"})
+    EXPECT_THAT(down(std::string(name) + ",x,y\n1,1,1\n0,2,1\n1,3,1\n"), expected) << name;
+  for (const char* name : {"penup", "pen_up"})
+    EXPECT_THAT(down(std::string(name) + ",x,y\n0,1,1\n1,2,1\n0,3,1\n"), expected) << name;
+  EXPECT_THAT(down("pen,x,y\nTrue,1,1\nFalse,2,1\nTrue,3,1\n"), expected);
+  EXPECT_THAT(down("pen,x,y\nDOWN,1,1\nUP,2,1\nDOWN,3,1\n"), expected);
+  EXPECT_THAT(layout_refusal("pen,x,y\nmaybe,1,1\n"), HasSubstr("column 'pen': 'maybe'"));
+  EXPECT_THAT(imported("pen,x,y\n1,1,1\n0,2,1\n").description,
+              HasSubstr("pen state pen: up where it is 0, in 1"));
+  const ImportedStroke never = imported("pen,x,y\n0,1,1\n0,2,1\n");
+  EXPECT_THAT(never.stroke.contact, ElementsAre());
+  EXPECT_THAT(never.warnings, ElementsAre(HasSubstr("'pen' would lift the pen in all samples")));
+  EXPECT_THAT(imported("pen,x,y\n1,1,1\n2,2,1\n").warnings,
+              ElementsAre(HasSubstr("'pen' changes but never lifts")));
+}
+
+TEST(TablePen, ColumnsCanBeNamed) {
+  TableSettings settings = metres_at_10_hz();
+  const std::string text = "button,part,x,y\n1,1,1,1\n0,1,2,1\n1,2,3,1\n1,2,3,3\n";
+  EXPECT_THAT(imported(text, settings).stroke.contact, ElementsAre());
+  EXPECT_THAT(imported(text, settings).warnings,
+              ElementsAre(AllOf(HasSubstr("'button' changes between 0 and 1"), HasSubstr("--pen-state")),
+                          AllOf(HasSubstr("'part' changes 1 times"), HasSubstr("--stroke-number"))));
+  settings.pen_state = "button";
+  settings.stroke_number = "part";
+  EXPECT_THAT(imported(text, settings).stroke.contact, ElementsAre(pen_down, pen_up, pen_down, pen_down));
+  EXPECT_THAT(imported(text, settings).warnings, ElementsAre());
+  settings.pen_state = "-button";
+  settings.stroke_number = "";
+  EXPECT_THAT(imported(text, settings).stroke.contact, ElementsAre(pen_up, pen_down, pen_up, pen_up));
+  settings.stroke_number = "word";
+  EXPECT_THAT(layout_refusal(text, settings), HasSubstr("column 'word' is missing"));
+}
+
+TEST(TableJson, LinesOfNumbersAreATable) {
+  const ImportedStroke found = imported(
+      "{\"stamp\":1700000000123456789,\"pos\":{\"x\":5,\"y\":6.5,\"z\":7},\"name\":\"a\"}\n"
+      "{\"pos\":{\"x\":5,\"y\":6,\"z\":8},\"stamp\":1700000000123456790,\"name\":\"b, c\"}\n",
+      [] {
+        TableSettings settings;
+        settings.position_unit = "m";
+        return settings;
+      }());
+  EXPECT_THAT(found.stroke.position, ElementsAre(Vector3d(5, 6.5, 7), Vector3d(5, 6, 8)));
+  EXPECT_THAT(found.stroke.time, ElementsAre(0.0, 1e-9));
+  EXPECT_THAT(found.description, HasSubstr("lines of JSON, 5 columns, 2 rows"));
+  EXPECT_EQ(imported("{\"pos\":[5,6,7]}\n{\"pos\":[5,6,8]}\n").stroke.position[0], Vector3d(5, 6, 7));
+  EXPECT_THAT(values(layout_table("{\"x\":1,\"y\":2}\n{\"x\":null}\n"), "x"), ElementsAre(1, -1));
+  EXPECT_THAT(layout_refusal("{\"x\":1,\"y\":2}\n{\"x\":1,\"q\":2}\n"),
+              HasSubstr("in.csv:2: 'q' is not in the first"));
+  EXPECT_THAT(layout_refusal("{\"x\":1,\"y\":2}\n{\"x\":1,\n"), HasSubstr("in.csv:2: is not a JSON object"));
+  EXPECT_THAT(layout_refusal("{\"x\":1,\"y\":2}\n{\"x\":1,\"y\":\"b\"}\n"),
+              HasSubstr("in.csv:2: column 'y': 'b'"));
+  EXPECT_NE(layout_refusal("{\"word\":\"line\",\"drawing\":[[[1,2],[3,4]]]}\n"), "");
+}
+
+TEST(TableClocks, InTwoColumnsAreOne) {
+  for (const char* names :
+       {"sec,nanosec", "secs,nsecs", "header.stamp.sec,header.stamp.nanosec", "stamp_sec,stamp_nanosec"}) {
+    TableSettings settings;
+    const ImportedStroke found = imported(
+        std::string(names) + ",x_m,y_m\n1573151162,999999999,1,2\n1573151163,0,1,3\n1573151163,7,1,4\n",
+        settings);
+    EXPECT_THAT(found.stroke.time, ElementsAre(0.0, 1e-9, 8e-9)) << names;
+    EXPECT_EQ(found.clock, 1573151162999999999) << names;
+    EXPECT_THAT(found.description, HasSubstr("one clock of")) << names;
+    EXPECT_THAT(found.description, Not(HasSubstr("not used"))) << names;
+  }
+  const std::string text = "a,t_msec,t_sec,x_m,y_m\n0,900,4,1,2\n0,0,5,1,3\n";
+  EXPECT_THAT(imported(text, {}).stroke.time, ElementsAre(0.0, 0.1)) << "of milliseconds, in another order";
+  TableSettings settings;
+  settings.time = "tv_sec,tv_usec";
+  EXPECT_THAT(imported("tv_sec,tv_usec,x_m,y_m\n4,900000,1,2\n5,1,1,3\n", settings).stroke.time,
+              ElementsAre(0.0, 0.100001));
+  settings.time = "x_m,y_m";
+  EXPECT_THAT(layout_refusal("t_sec,x_m,y_m\n4,1,2\n", settings),
+              HasSubstr("does not say whether it counts ms, us or ns"));
+}
+
+TEST(TableClocks, TwoClocksAreNotJoined) {
+  const ImportedStroke found = imported("t_sec,t_msec,x_m,y_m\n0,0,1,2\n1.5,1500,1,3\n", {});
+  EXPECT_THAT(found.stroke.time, ElementsAre(0.0, 1.5));
+  EXPECT_THAT(found.description, HasSubstr("not used: t_msec"));
+  EXPECT_THAT(
+      layout_refusal("t_sec,t_msec,x_m,y_m\n0,0,1,2\n1,1500,1,3\n", {}),
+      AllOf(HasSubstr("in.csv:3: column 't_msec' is taken for the ms of the whole seconds in 't_sec', "
+                      "but 1500 is not between 0 and 999"),
+            HasSubstr("--time")));
+}
+
+}  // namespace
+}  // namespace sandstroke
