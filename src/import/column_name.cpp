@@ -31,15 +31,21 @@ const Words other_words{"torque",  "tau",   "moment", "a",       "acc",     "acc
 const Words stroke_numbers{"stroke",      "strokes",   "strokeid",    "strokenumber",
                            "strokeindex", "strokeno",  "strokenr",    "strokenum",
                            "strokeidx",   "penstroke", "penstrokeid", "penstrokenumber"};
-const Words perhaps_stroke_numbers{"segment", "segmentid", "segmentindex", "segmentnumber", "trial",
-                                   "path",    "pathid",    "line",         "lineid",        "curve",
-                                   "curveid", "letter",    "part",         "group",         "id"};
+const Words perhaps_stroke_numbers{
+    "segment", "segmentid", "segmentindex", "segmentnumber", "trial",   "path",      "pathid",     "line",
+    "lineid",  "curve",     "curveid",      "letter",        "part",    "group",     "id",         "seg",
+    "segid",   "trace",     "traceid",      "polyline",      "contour", "contourid", "polylineid", "penid"};
 const Words pen_downs{"pen",       "penstate",  "pendown",    "ispendown", "penisdown",   "tipdown",
                       "tipswitch", "istipdown", "pencontact", "pentouch",  "pentouching", "stylusdown"};
 const Words pen_ups{"penup", "ispenup", "penisup", "penlifted", "tipup", "stylusup"};
-const Words perhaps_pen_downs{"contact", "incontact", "iscontact", "touch",   "touching", "istouching",
-                              "button",  "button1",   "down",      "isdown",  "state",    "penstatus",
-                              "status",  "drawing",   "hover",     "hovering"};
+const Words perhaps_pen_downs{"contact", "incontact", "iscontact", "touch",  "touching", "istouching",
+                              "button",  "button1",   "down",      "isdown", "state",    "penstatus",
+                              "status",  "drawing",   "event",     "tip"};
+const Words perhaps_pen_ups{"hover", "hovering", "ishovering", "up", "isup", "lifted", "islifted"};
+// After other words these may say something else: "user_id", "x_pen", "not_pen_down".
+const Words only_bare{"id", "up", "down", "tip"};
+const Words short_names{"pen", "stroke", "strokes"};
+const Words negations{"not", "no", "non"};
 
 /// One word of a name, in small letters, and where it begins in the name.
 struct Word {
@@ -170,20 +176,37 @@ class NameReader {
     return true;
   }
 
+  /// The last words may tell of a pen: "tip.pen_down", "rec.stroke_id". The longest such name counts.
   bool take_pen() {
-    std::string all;
-    for (const Word& word : words_) all += word.text;
     const std::pair<const Words*, Means> lists[] = {{&stroke_numbers, Means::stroke_number},
                                                     {&perhaps_stroke_numbers, Means::perhaps_stroke_number},
                                                     {&pen_downs, Means::pen_down},
                                                     {&pen_ups, Means::pen_up},
-                                                    {&perhaps_pen_downs, Means::perhaps_pen_down}};
-    for (const auto& [names, means] : lists) {
-      if (!names->contains(all)) continue;
-      column_.means = means;
-      return true;
+                                                    {&perhaps_pen_downs, Means::perhaps_pen_down},
+                                                    {&perhaps_pen_ups, Means::perhaps_pen_up}};
+    for (std::size_t first = 0; first < words_.size(); ++first) {
+      std::string name;
+      for (std::size_t i = first; i < words_.size(); ++i) name += words_[i].text;
+      for (const auto& [names, means] : lists) {
+        if (!names->contains(name) || !may_precede(first, name)) continue;
+        column_.means = means;
+        return true;
+      }
     }
     return false;
+  }
+
+  /// True if the words before that one leave the name of a pen's column what it is.
+  bool may_precede(std::size_t first, const std::string& name) const {
+    const bool bare_only = only_bare.contains(name), is_short = short_names.contains(name);
+    const auto says_other = [&](const Word& word) {
+      const std::string& text = word.text;
+      if (bare_only || negations.contains(text) || other_words.contains(text)) return true;
+      const bool is_axis = text.size() == 1 && axis_of(text[0]) >= 0;
+      return is_short && (is_axis || text == "pressure" || velocity_words.contains(text) ||
+                          force_words.contains(text) || orientation_words.contains(text));
+    };
+    return std::none_of(words_.begin(), words_.begin() + static_cast<std::ptrdiff_t>(first), says_other);
   }
 
   /// The position of "r11" to "r33", or "r00" to "r22", in a matrix, row by row.

@@ -21,6 +21,7 @@ struct ColumnName {
     pen_down,               ///< not 0: the pen is down
     pen_up,                 ///< not 0: the pen is up
     perhaps_pen_down,       ///< "button"
+    perhaps_pen_up,         ///< "hover"
     other
   };
   Means means = Means::other;

@@ -125,11 +125,19 @@ std::optional<std::size_t> LayoutFinder::found_one(Means means) const {
   return best;
 }
 
-std::vector<std::size_t> LayoutFinder::first_two(Means means) const {
+std::vector<std::size_t> LayoutFinder::first_two(std::initializer_list<Means> means) const {
   std::vector<std::size_t> columns;
-  for (std::size_t i = 0; i < names_.size() && columns.size() < 2; ++i)
-    if (names_[i].parts.means == means) columns.push_back(i);
+  for (std::size_t i = 0; i < names_.size(); ++i)
+    if (std::find(means.begin(), means.end(), names_[i].parts.means) != means.end()) columns.push_back(i);
+  std::stable_sort(columns.begin(), columns.end(),
+                   [&](std::size_t a, std::size_t b) { return names_[a].parts.rank < names_[b].parts.rank; });
+  columns.resize(std::min<std::size_t>(columns.size(), 2));
   return columns;
+}
+
+bool LayoutFinder::is_pen_up(std::size_t column) const {
+  const Means means = names_[column].parts.means;
+  return means == Means::pen_up || means == Means::perhaps_pen_up;
 }
 
 LayoutFinder::Time LayoutFinder::found_time() const {

@@ -31,8 +31,8 @@ class LayoutFinder {
   ColumnChoices found(ColumnName::Means means, int least, int most) const;
   /// The first of the plainest columns.
   std::optional<std::size_t> found_one(ColumnName::Means means) const;
-  /// The first columns that mean this, two at most.
-  std::vector<std::size_t> first_two(ColumnName::Means means) const;
+  /// The plainest columns that mean one of these, two at most.
+  std::vector<std::size_t> first_two(std::initializer_list<ColumnName::Means> means) const;
 
   struct Time {
     std::optional<std::size_t> column, fraction;
@@ -46,7 +46,8 @@ class LayoutFinder {
   /// row is the axis that is left.
   Eigen::Matrix3d axes_of(const ColumnChoices& choices) const;
 
-  ColumnName::Means means_of(std::size_t column) const { return names_[column].parts.means; }
+  /// True if the pen is up where the column is not 0, by its name.
+  bool is_pen_up(std::size_t column) const;
   std::string all_names() const;
 
  private:

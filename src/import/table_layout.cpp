@@ -35,13 +35,12 @@ void take_pen_columns(const LayoutFinder& finder, const TableSettings& settings,
     layout.pen_state = finder.found_one(Means::pen_down);
     if (!layout.pen_state) layout.pen_state = finder.found_one(Means::pen_up);
   }
-  if (layout.pen_state)
-    layout.state_is_up = (finder.means_of(*layout.pen_state) == Means::pen_up) != (state.sign < 0.0);
+  if (layout.pen_state) layout.state_is_up = finder.is_pen_up(*layout.pen_state) != (state.sign < 0.0);
   if (layout.stroke_number || layout.pen_state || is_none(settings.stroke_number) ||
       is_none(settings.pen_state))
     return;
-  layout.perhaps_stroke_number = finder.first_two(Means::perhaps_stroke_number);
-  layout.perhaps_pen_state = finder.first_two(Means::perhaps_pen_down);
+  layout.perhaps_stroke_number = finder.first_two({Means::perhaps_stroke_number});
+  layout.perhaps_pen_state = finder.first_two({Means::perhaps_pen_down, Means::perhaps_pen_up});
 }
 
 }  // namespace

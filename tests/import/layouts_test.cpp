@@ -293,6 +293,48 @@ TEST(TablePen, IsDownWhereItsStateIsNot0) {
               ElementsAre(HasSubstr("'pen' changes but never lifts")));
 }
 
+TEST(TablePen, PrefixesOfItsColumnsDoNotHideIt) {
+  for (const char* before : {"tip.", "rec_", "pen/", "msg.", "pos_", "stylus.", "state."}) {
+    const std::string name = before;
+    EXPECT_THAT(imported("x,y," + name + "pen_down\n1,1,1\n2,1,0\n3,1,1\n").stroke.contact,
+                ElementsAre(pen_down, pen_up, pen_down))
+        << name;
+    EXPECT_THAT(imported("x,y," + name + "strokeId\n1,1,1\n2,1,1\n3,1,2\n4,1,2\n").stroke.contact,
+                ElementsAre(pen_down, pen_lifts, pen_down, pen_down))
+        << name;
+  }
+  EXPECT_THAT(imported("{\"p\":{\"x\":1,\"y\":1},\"state\":{\"pen_down\":true}}\n"
+                       "{\"p\":{\"x\":2,\"y\":1},\"state\":{\"pen_down\":false}}\n"
+                       "{\"p\":{\"x\":3,\"y\":1},\"state\":{\"pen_down\":true}}\n")
+                  .stroke.contact,
+              ElementsAre(pen_down, pen_up, pen_down));
+  EXPECT_THAT(imported("x,y,rec.pen_down,pen_down\n1,1,1,1\n2,1,1,0\n3,1,1,1\n").stroke.contact,
+              ElementsAre(pen_down, pen_up, pen_down))
+      << "the plainest counts";
+  for (const char* other : {"target.pen_down", "not_pen_down", "x_pen", "vel_stroke"})
+    EXPECT_EQ(column_name(other).means, ColumnName::Means::other) << other;
+}
+
+TEST(TablePen, ColumnsThatPerhapsTellOfItAreTold) {
+  const auto warnings = [](const std::string& name, const std::string& values) {
+    std::string text = "x,y," + name + "\n";
+    int row = 0;
+    for (const std::string& value : parts_of_list(values))
+      text += std::to_string(++row) + ",1," + value + "\n";
+    return imported(text).warnings;
+  };
+  for (const char* name : {"hover", "hovering", "up", "is_up", "lifted", "tip", "finger.touch", "event"})
+    EXPECT_THAT(warnings(name, "0,0,1,1"),
+                ElementsAre(AllOf(HasSubstr("changes between 0 and 1"), HasSubstr("--pen-state"))))
+        << name;
+  for (const char* name : {"seg", "trace", "polyline", "contour", "pen_id", "rec.segment_id"})
+    EXPECT_THAT(warnings(name, "1,1,2,2"), ElementsAre(HasSubstr("--stroke-number"))) << name;
+  TableSettings settings = metres_at_10_hz();
+  settings.pen_state = "hover";
+  EXPECT_THAT(imported("x,y,hover\n1,1,0\n2,1,1\n3,1,0\n", settings).stroke.contact,
+              ElementsAre(pen_down, pen_up, pen_down));
+}
+
 TEST(TablePen, ColumnsCanBeNamed) {
   TableSettings settings = metres_at_10_hz();
   const std::string text = "button,part,x,y\n1,1,1,1\n0,1,2,1\n1,2,3,1\n1,2,3,3\n";
