@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -20,6 +21,19 @@ constexpr const char* means_names[] = {"position", "velocity", "force", "orienta
 bool is_part_of_clock(const std::string& unit, bool seconds) {
   const auto known = known_unit(Quantity::time, unit);
   return known && (known->divisor == 1.0) == seconds;
+}
+
+/// True if a value of a column in ms, us or ns is a second at least.
+bool reaches_second(const SampleColumn& column, const std::string& unit) {
+  const auto known = known_unit(Quantity::time, unit);
+  return known && known->divisor > 1.0 &&
+         std::any_of(column.values.begin(), column.values.end(),
+                     [&](double value) { return std::isfinite(value) && value >= known->divisor; });
+}
+
+bool has_fractions(const SampleColumn& column) {
+  return std::any_of(column.values.begin(), column.values.end(),
+                     [](double value) { return std::isfinite(value) && value != std::floor(value); });
 }
 
 std::vector<int> order_of(const ColumnChoices& choices) {
@@ -54,7 +68,11 @@ struct LayoutFinder::Group {
 
 LayoutFinder::LayoutFinder(const std::vector<SampleColumn>& columns, const std::string& location)
     : location_(location) {
-  for (const SampleColumn& column : columns) names_.push_back({column.name, column_name(column.name)});
+  for (const SampleColumn& column : columns) {
+    const ColumnName parts = column_name(column.name);
+    const std::string unit = column.unit.empty() ? parts.unit : column.unit;
+    names_.push_back({column.name, unit, parts, reaches_second(column, parts.unit), has_fractions(column)});
+  }
 }
 
 ColumnChoices LayoutFinder::named(const std::string& list, const char* key,
@@ -92,28 +110,64 @@ ColumnChoice LayoutFinder::signed_one(const std::string& wanted) const {
   return {one(wanted), 1.0};
 }
 
-ColumnChoices LayoutFinder::found(Means means, int least, int most) const {
-  std::vector<Group> plainest;
+ColumnChoices LayoutFinder::found(Means means, int least, int most, std::vector<std::string>* doubts) const {
+  std::vector<Group> plainest, others;
   for (const std::vector<std::size_t>& columns : groups_of(means)) {
     const std::optional<Group> group = group_of(columns);
     if (!group || !group->has(least)) continue;
-    if (!plainest.empty() && group->rank > plainest.front().rank) continue;
-    if (!plainest.empty() && group->rank < plainest.front().rank) plainest.clear();
-    plainest.push_back(*group);
+    if (!plainest.empty() && group->rank < plainest.front().rank) {
+      others.insert(others.end(), plainest.begin(), plainest.end());
+      plainest.clear();
+    }
+    (plainest.empty() || group->rank == plainest.front().rank ? plainest : others).push_back(*group);
   }
   if (plainest.empty()) return {};
   const char* key = means_names[static_cast<int>(means)];
-  if (plainest.size() > 1)
-    throw_input_error("{}: columns '{}' and '{}' may both be the {}; name its columns with {}", location_,
-                      names_[plainest[0].at(0)].name, names_[plainest[1].at(0)].name, key,
-                      option_and_key(key));
-  ColumnChoices choices;
   const Group& group = plainest.front();
+  if (plainest.size() > 1 || (doubts && count_of(names_[group.at(0)].name) > 1)) {
+    const std::string sentence =
+        fmt::format("columns '{}' and '{}' may both be the {}; name its columns with {}",
+                    names_[group.at(0)].name, names_[plainest.back().at(0)].name, key, option_and_key(key));
+    if (!doubts)
+      throw_input_error("{}: {}{}", location_, sentence, means == Means::position ? "" : ", or none");
+    doubts->push_back(fmt::format("{} left out: {}", key, sentence));
+    return {};
+  }
+  ColumnChoices choices;
   for (int axis = 0; axis < (group.has(most) ? most : least); ++axis) {
     check_only_one(names_[group.at(axis)].name, key);
     choices.push_back({group.at(axis), 1.0});
   }
+  if (means == Means::position) check_not_flat(group, others);
   return choices;
+}
+
+void LayoutFinder::check_not_flat(const Group& plainest, const std::vector<Group>& others) const {
+  if (plainest.has(3)) return;
+  for (const Group& other : others) {
+    const std::string &unit = names_[plainest.at(0)].unit, &other_unit = names_[other.at(0)].unit;
+    const bool in_space = other.has(3);
+    const bool only_plainest_says = other_unit.empty() && !unit.empty() && !is_pixel(unit);
+    if (!in_space && (unit == other_unit || only_plainest_says)) continue;
+    const auto list = [&](const Group& group) {
+      return fmt::format("{},{}{}", names_[group.at(0)].name, names_[group.at(1)].name,
+                         group.has(3) ? "," + names_[group.at(2)].name : "");
+    };
+    throw_input_error(
+        "{}: columns '{}' and '{}' may both be the position, and {}; name its columns with {}, such as "
+        "\"{}\"",
+        location_, names_[plainest.at(0)].name, names_[other.at(0)].name,
+        in_space ? "only the second has a height" : "their units differ", option_and_key("position"),
+        list(other));
+  }
+}
+
+std::optional<std::size_t> LayoutFinder::lone_height() const {
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    const ColumnName& parts = names_[i].parts;
+    if (parts.means == Means::position && parts.axis == 2 && !parts.numbered) return i;
+  }
+  return std::nullopt;
 }
 
 std::optional<std::size_t> LayoutFinder::found_one(Means means) const {
@@ -121,6 +175,22 @@ std::optional<std::size_t> LayoutFinder::found_one(Means means) const {
   for (std::size_t i = 0; i < names_.size(); ++i) {
     if (names_[i].parts.means != means) continue;
     if (!best || names_[i].parts.rank < names_[*best].parts.rank) best = i;
+  }
+  return best;
+}
+
+std::optional<std::size_t> LayoutFinder::found_one(Means means, const std::string& key,
+                                                   std::vector<std::string>& warnings) const {
+  const std::optional<std::size_t> best = found_one(means);
+  if (!best) return best;
+  check_only_one(names_[*best].name, key);
+  for (std::size_t i = *best + 1; i < names_.size(); ++i) {
+    if (names_[i].parts.means != means || names_[i].parts.rank != names_[*best].parts.rank) continue;
+    warnings.push_back(
+        fmt::format("columns '{0}' and '{1}' are equally good, and '{0}' is taken; to take "
+                    "'{1}', set {2} to it",
+                    names_[*best].name, names_[i].name, option_and_key(key)));
+    break;
   }
   return best;
 }
@@ -140,7 +210,8 @@ bool LayoutFinder::is_pen_up(std::size_t column) const {
   return means == Means::pen_up || means == Means::perhaps_pen_up;
 }
 
-LayoutFinder::Time LayoutFinder::found_time() const {
+LayoutFinder::Time LayoutFinder::found_time(const std::string& key,
+                                            std::vector<std::string>& warnings) const {
   const Time time{found_one(Means::time), {}};
   if (!time.column) return time;
   const std::string& group = names_[*time.column].parts.group;
@@ -154,7 +225,15 @@ LayoutFinder::Time LayoutFinder::found_time() const {
   };
   const auto seconds = part(true), fraction = part(false);
   const bool in_two = seconds && fraction && (time.column == seconds || time.column == fraction);
-  return in_two ? Time{seconds, fraction} : time;
+  if (!in_two) return {found_one(Means::time, key, warnings), {}};
+  check_only_one(names_[*seconds].name, key);
+  check_only_one(names_[*fraction].name, key);
+  if (names_[*seconds].has_fractions || !names_[*fraction].reaches_second) return {seconds, fraction};
+  warnings.push_back(
+      fmt::format("columns '{0}' and '{1}' are two times, because '{1}' reaches a second, and "
+                  "'{1}' is taken; to take '{0}', set {2} to it",
+                  names_[*seconds].name, names_[*fraction].name, option_and_key(key)));
+  return {fraction, {}};
 }
 
 LayoutFinder::Time LayoutFinder::named_time(const std::string& wanted) const {
@@ -235,6 +314,11 @@ std::optional<LayoutFinder::Group> LayoutFinder::group_of(const std::vector<std:
   const bool is_vector = count == 3 || (count == 2 && first.dotted);
   const bool is_of_six = count == 6 && group.has(6) && has_six_numbers(first.group);
   return is_vector || is_of_six ? std::optional(group) : std::nullopt;
+}
+
+std::size_t LayoutFinder::count_of(const std::string& name) const {
+  return static_cast<std::size_t>(
+      std::count_if(names_.begin(), names_.end(), [&](const Named& named) { return named.name == name; }));
 }
 
 void LayoutFinder::check_only_one(const std::string& name, const std::string& key) const {

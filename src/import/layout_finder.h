@@ -27,18 +27,28 @@ class LayoutFinder {
   ColumnChoice signed_one(const std::string& wanted) const;
 
   /// The plainest group of columns whose names differ in the axis, with its first `least` axes; all of its
-  /// first `most` axes, if it has those. Empty: there is no such group. Error: two groups are equally plain.
-  ColumnChoices found(ColumnName::Means means, int least, int most) const;
+  /// first `most` axes, if it has those. Empty: there is no such group. Error: two groups are equally plain,
+  /// or a flat position is plainer than one in space or in another unit.
+  /// With `doubts`, these are noted there instead, and there is no such group.
+  ColumnChoices found(ColumnName::Means means, int least, int most,
+                      std::vector<std::string>* doubts = nullptr) const;
+  /// The first of the plainest columns. A warning names another that is as plain, and the key that chooses.
+  /// Error: two have the same name.
+  std::optional<std::size_t> found_one(ColumnName::Means means, const std::string& key,
+                                       std::vector<std::string>& warnings) const;
   /// The first of the plainest columns.
   std::optional<std::size_t> found_one(ColumnName::Means means) const;
+  /// A column of z that no other axis goes with: "pos_z" beside x and y.
+  std::optional<std::size_t> lone_height() const;
   /// The plainest columns that mean one of these, two at most.
   std::vector<std::size_t> first_two(std::initializer_list<ColumnName::Means> means) const;
 
   struct Time {
     std::optional<std::size_t> column, fraction;
   };
-  /// The plainest time, and the column with the fractions of its seconds.
-  Time found_time() const;
+  /// The plainest time, and the column with the fractions of its seconds. Warnings name rivals; key: the
+  /// setting that chooses.
+  Time found_time(const std::string& key, std::vector<std::string>& warnings) const;
   /// The time that the settings name: one column, or "sec,nanosec".
   Time named_time(const std::string& wanted) const;
 
@@ -52,12 +62,17 @@ class LayoutFinder {
 
  private:
   struct Named {
-    std::string name;
+    std::string name, unit;  // the column's own unit, or that in its name
     ColumnName parts;
+    // Of its values, if they are known: one is a second at least, though they count ms; one is not whole.
+    bool reaches_second, has_fractions;
   };
   struct Group;
+  /// Error: another group has a height that the plainest lacks, or another unit.
+  void check_not_flat(const Group& plainest, const std::vector<Group>& others) const;
 
   bool is_name(const std::string& text) const;
+  std::size_t count_of(const std::string& name) const;
   std::vector<std::vector<std::size_t>> groups_of(ColumnName::Means means) const;
   std::optional<Group> group_of(const std::vector<std::size_t>& columns) const;
   /// Error: several columns have this name. key: the setting that chooses by numbers; empty: it just did.

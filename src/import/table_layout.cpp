@@ -10,19 +10,20 @@ namespace {
 
 using Means = ColumnName::Means;
 
-/// Turns found columns, which are in the table's axes, as the position's columns are turned.
-ColumnChoices along(const ColumnChoices& found, const Eigen::Matrix3d& axes) {
-  ColumnChoices turned = found;
+/// Turns found columns, which are in the table's axes, as the position's columns are turned. None: they lack
+/// an axis that the position has.
+std::optional<ColumnChoices> along(const ColumnChoices& found, const Eigen::Matrix3d& axes) {
+  ColumnChoices turned;
   for (std::size_t k = 0; k < found.size(); ++k)
     for (std::size_t axis = 0; axis < found.size(); ++axis)
       if (const double sign = axes(static_cast<int>(k), static_cast<int>(axis)); sign != 0.0)
-        turned[k] = {found[axis].column, sign};
-  return turned;
+        turned.push_back({found[axis].column, sign});
+  return turned.size() == found.size() ? std::optional(turned) : std::nullopt;
 }
 
 void take_pen_columns(const LayoutFinder& finder, const TableSettings& settings, TableLayout& layout) {
   if (settings.stroke_number.empty())
-    layout.stroke_number = finder.found_one(Means::stroke_number);
+    layout.stroke_number = finder.found_one(Means::stroke_number, "stroke_number", layout.warnings);
   else if (!is_none(settings.stroke_number))
     layout.stroke_number = finder.one(settings.stroke_number);
   ColumnChoice state;
@@ -32,8 +33,8 @@ void take_pen_columns(const LayoutFinder& finder, const TableSettings& settings,
     state = finder.signed_one(settings.pen_state);
     layout.pen_state = state.column;
   } else {
-    layout.pen_state = finder.found_one(Means::pen_down);
-    if (!layout.pen_state) layout.pen_state = finder.found_one(Means::pen_up);
+    layout.pen_state = finder.found_one(Means::pen_down, "pen_state", layout.warnings);
+    if (!layout.pen_state) layout.pen_state = finder.found_one(Means::pen_up, "pen_state", layout.warnings);
   }
   if (layout.pen_state) layout.state_is_up = finder.is_pen_up(*layout.pen_state) != (state.sign < 0.0);
   if (layout.stroke_number || layout.pen_state || is_none(settings.stroke_number) ||
@@ -68,14 +69,27 @@ TableLayout table_layout(const std::vector<SampleColumn>& columns, const TableSe
           "{}: no columns are named x, y and z; give the names or numbers of the position's columns with {}; "
           "the columns are: {}",
           location, option_and_key("position"), finder.all_names());
+    if (const auto height = finder.lone_height(); height && layout.position.size() == 2)
+      layout.warnings.push_back(fmt::format(
+          "the stroke is flat, but column '{}' may be its height; if it is, set {} to \"{},{},{}\"",
+          columns[*height].name, option_and_key("position"), columns[layout.position[0].column].name,
+          columns[layout.position[1].column].name, columns[*height].name));
   }
   layout.axes = of_first ? *of_first : finder.axes_of(layout.position);
-  const auto vector = [&](const std::string& list, const char* key, Means means) {
+  const auto vector = [&](const std::string& list, const std::string& key, Means means,
+                          std::vector<std::string>* doubts) {
     if (is_none(list)) return ColumnChoices();
-    return list.empty() ? along(finder.found(means, 2, 3), layout.axes) : finder.named(list, key, {2, 3});
+    if (!list.empty()) return finder.named(list, key.c_str(), {2, 3});
+    const auto turned = along(finder.found(means, 2, 3, doubts), layout.axes);
+    if (turned) return *turned;
+    layout.warnings.push_back(
+        fmt::format("the {} is left out, because it has no column for an axis that the position has; name "
+                    "its columns with {}",
+                    key, option_and_key(key)));
+    return ColumnChoices();
   };
-  layout.velocity = vector(settings.velocity, "velocity", Means::velocity);
-  layout.force = vector(settings.force, "force", Means::force);
+  layout.velocity = vector(settings.velocity, "velocity", Means::velocity, &layout.notes);
+  layout.force = vector(settings.force, "force", Means::force, nullptr);
   if (!settings.orientation.empty() && !is_none(settings.orientation)) {
     layout.orientation = finder.named(settings.orientation, "orientation", {4, 9});
   } else if (settings.orientation.empty()) {
@@ -83,13 +97,17 @@ TableLayout table_layout(const std::vector<SampleColumn>& columns, const TableSe
     if (layout.orientation.empty()) layout.orientation = finder.found(Means::matrix, 9, 9);
   }
   if (!is_none(settings.pressure))
-    layout.pressure =
-        settings.pressure.empty() ? finder.found_one(Means::pressure) : finder.one(settings.pressure);
+    layout.pressure = settings.pressure.empty()
+                          ? finder.found_one(Means::pressure, "pressure", layout.warnings)
+                          : finder.one(settings.pressure);
   take_pen_columns(finder, settings, layout);
-  const auto time = settings.time.empty() ? finder.found_time() : finder.named_time(settings.time);
-  if (settings.time.empty() && (settings.rate > 0.0 || settings.speed > 0.0)) {
-    layout.replaced_time = time.column;
+  const bool by_other = settings.time.empty() && (settings.rate > 0.0 || settings.speed > 0.0);
+  if (by_other) {
+    layout.replaced_time = finder.found_one(Means::time);
   } else {
+    const auto time = settings.time.empty()
+                          ? finder.found_time(of_first ? "merge_time" : "time", layout.warnings)
+                          : finder.named_time(settings.time);
     layout.time = time.column;
     layout.time_fraction = time.fraction;
   }

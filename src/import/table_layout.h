@@ -33,6 +33,8 @@ struct TableLayout {
   std::vector<std::size_t> perhaps_stroke_number, perhaps_pen_state;
   /// From the table's axes to the stroke's: its rows are the positions' columns.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  std::vector<std::string> notes;     ///< for the description: what is left out
+  std::vector<std::string> warnings;  ///< a sentence each, without the table's name
 };
 
 /// Takes the columns that the settings name, and else those whose names tell their meaning. of_first: the

@@ -32,6 +32,8 @@ class ColumnsFinder {
         is_second_(is_second),
         missing_(table, name, settings.missing) {
     used_.layout = layout;
+    used_.notes = layout.notes;
+    for (const std::string& warning : layout.warnings) used_.warnings.push_back(name + ": " + warning);
   }
 
   UsedColumns find() {

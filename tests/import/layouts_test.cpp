@@ -149,9 +149,8 @@ TEST(TableLayouts, EqualCandidatesAreAskedFor) {
   EXPECT_THAT(layout_refusal("x [px],y [px],x [m],y [m],z [m]\n1,2,3,4,5\n"),
               HasSubstr("may both be the position"));
   EXPECT_THAT(layout_refusal("X1,Y1,Z1,X2,Y2,Z2\n1,2,3,4,5,6\n"), HasSubstr("'X1' and 'X2' may both be"));
-  EXPECT_THAT(layout_refusal("x,y,vx,vy,VX,VY\n1,2,3,4,5,6\n"), HasSubstr("may both be the velocity"));
   EXPECT_THAT(layout_refusal("x,y,fx,fy,FX,FY\n1,2,3,4,5,6\n"),
-              AllOf(HasSubstr("may both be the force"), HasSubstr("--force)")));
+              AllOf(HasSubstr("may both be the force"), HasSubstr("--force), or none")));
   EXPECT_THAT(layout_refusal("x,y,left_fx,left_fy,right_fx,right_fy\n1,2,3,4,5,6\n"), HasSubstr("--force)"));
   EXPECT_THAT(
       layout_refusal("Frame,X,Y,Z,W,X,Y,Z\n0,0,0,0,1,5,6,7\n"),
@@ -161,6 +160,55 @@ TEST(TableLayouts, EqualCandidatesAreAskedFor) {
   named.position = "X,Y,Z";
   EXPECT_EQ(imported("t,x,y,X,Y,Z\n0,640,480,0.1,0.2,0.3\n", named).stroke.position[0],
             Vector3d(0.1, 0.2, 0.3));
+}
+
+TEST(TableLayouts, AFlatPositionBesideOneInSpaceIsAskedFor) {
+  for (const char* others : {"pos_x,pos_y,pos_z", "position.x,position.y,position.z", "PosX,PosY,PosZ",
+                             "x_pos,y_pos,z_pos", "tip_x,tip_y,tip_z", "px,py,pz", "pos.1,pos.2,pos.3",
+                             "pos_x_m,pos_y_m,pos_z_m", "hand_x,hand_y,hand_z"})
+    for (const char* flat : {"x,y", "x_px,y_px"})
+      EXPECT_THAT(layout_refusal(std::string("t,") + flat + "," + others + "\n0,640,480,0.1,0.2,0.3\n"),
+                  AllOf(HasSubstr("may both be the position"), HasSubstr("only the second has a height"),
+                        HasSubstr("--position)")))
+          << others;
+  EXPECT_THAT(layout_refusal("x_px,y_px,pos_x,pos_y\n640,480,0.1,0.2\n"), HasSubstr("their units differ"));
+  for (const char* fine :
+       {"x,y,z,tip_x,tip_y,tip_z", "x,y,z,target_x,target_y,target_z", "x,y,target_x,target_y,target_z,b"})
+    EXPECT_EQ(imported(std::string(fine) + "\n1,2,0,4,5,6\n").stroke.position[0], Vector3d(1, 2, 0)) << fine;
+}
+
+TEST(TableLayouts, ALoneHeightIsTold) {
+  for (const char* name : {"pos_z", "z_pos", "tip.z"})
+    EXPECT_THAT(imported("x,y," + std::string(name) + "\n1,2,3\n").warnings,
+                ElementsAre(AllOf(HasSubstr("column '" + std::string(name) + "' may be its height"),
+                                  HasSubstr("\"x,y," + std::string(name) + "\""))));
+  EXPECT_THAT(imported("x,y,target_z\n1,2,3\n").warnings, ElementsAre());
+}
+
+TEST(TableLayouts, RivalsOutsideThePositionAreTold) {
+  TableSettings timed = metres_at_10_hz();
+  timed.rate = 0.0;
+  timed.time_unit = "s";
+  const auto twice = HasSubstr("2 columns are named");
+  EXPECT_THAT(layout_refusal("t,x,y,t\n0,1,2,0\n1,1,3,2\n", timed), AllOf(twice, HasSubstr("--time)")));
+  EXPECT_THAT(layout_refusal("x,y,pressure,pressure\n1,2,3,4\n"), AllOf(twice, HasSubstr("--pressure)")));
+  EXPECT_THAT(layout_refusal("x,y,pen_down,pen_down\n1,2,1,0\n"), AllOf(twice, HasSubstr("--pen-state)")));
+  for (const char* names : {"time,x,y,Time", "time,x,y,timestamp"})
+    EXPECT_THAT(imported(std::string(names) + "\n0,1,2,0\n1,1,3,2\n", timed).warnings,
+                ElementsAre(AllOf(HasSubstr("'time' and '"), HasSubstr("equally good"), HasSubstr("--time"))))
+        << names;
+  const ImportedStroke found = imported("x,y,vx,vy,VX,VY\n1,2,3,4,5,6\n");
+  EXPECT_THAT(found.stroke.velocity, ElementsAre());
+  EXPECT_THAT(found.description, HasSubstr("velocity left out: columns"));
+}
+
+TEST(TableLayouts, AVectorWithoutAnAxisOfThePositionIsLeftOut) {
+  TableSettings settings = metres_at_10_hz();
+  settings.position = "x,z";
+  settings.force_unit = "N";
+  const ImportedStroke found = imported("x,z,fx,fy\n1,2,3,4\n", settings);
+  EXPECT_THAT(found.stroke.force, ElementsAre());
+  EXPECT_THAT(found.warnings, ElementsAre(AllOf(HasSubstr("the force is left out"), HasSubstr("--force)"))));
 }
 
 TEST(TableLayouts, NamesOfOtherQuantitiesAreNoPosition) {
@@ -402,8 +450,14 @@ TEST(TableClocks, TwoClocksAreNotJoined) {
   const ImportedStroke found = imported("t_sec,t_msec,x_m,y_m\n0,0,1,2\n1.5,1500,1,3\n", {});
   EXPECT_THAT(found.stroke.time, ElementsAre(0.0, 1.5));
   EXPECT_THAT(found.description, HasSubstr("not used: t_msec"));
+  const std::string totals = "t_sec,t_msec,x_m,y_m\n0,0,1,2\n1,1500,1,3\n";
+  EXPECT_THAT(imported(totals, {}).stroke.time, ElementsAre(0.0, 1.5));
+  EXPECT_THAT(imported(totals, {}).warnings,
+              ElementsAre(AllOf(HasSubstr("'t_sec' and 't_msec' are two times"), HasSubstr("--time"))));
+  TableSettings named;
+  named.time = "t_sec,t_msec";
   EXPECT_THAT(
-      layout_refusal("t_sec,t_msec,x_m,y_m\n0,0,1,2\n1,1500,1,3\n", {}),
+      layout_refusal(totals, named),
       AllOf(HasSubstr("in.csv:3: column 't_msec' is taken for the ms of the whole seconds in 't_sec', "
                       "but 1500 is not between 0 and 999"),
             HasSubstr("--time")));
