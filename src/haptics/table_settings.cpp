@@ -7,10 +7,10 @@ void describe_table(KeyVisitor& v, TableSettings& t) {
          "columns of the tip, by name or number: \"x,y,z\" with z up, or \"x,y\" (then z = 0); \"-x,z,y\" "
          "negates x and swaps the others");
   v.text("position_unit", t.position_unit,
-         "unit of the position: m, cm, mm, um, in, px, or its length in metres");
+         "unit of the position: m, cm, mm, um, nm, dm, km, in, ft, px, or its length in metres");
   v.number("pixel_size", t.pixel_size, not_negative, "m", "size of a pixel, for unit px");
   v.text("time", t.time, "column of the time: numbers, or ISO 8601; or two columns, \"sec,nanosec\"");
-  v.text("time_unit", t.time_unit, "unit of the time: s, ms, us or ns");
+  v.text("time_unit", t.time_unit, "unit of the time: s, ms, us, ns, min, h or day");
   v.number("rate", t.rate, not_negative, "Hz", "samples per second, instead of times");
   v.number("speed", t.speed, not_negative, "m/s", "speed of the tip on the bed, instead of times");
   choose(v, "equal_times", t.equal_times, {"error", "drop", "spread"},
@@ -61,7 +61,8 @@ void describe_table(KeyVisitor& v, TableSettings& t) {
   v.text("merge_part", t.merge_part,
          "one of several recordings in the second file, which may be the first one");
   v.text("merge_time", t.merge_time, "column of the time in the second table");
-  v.text("merge_time_unit", t.merge_time_unit, "unit of the time in the second table: s, ms, us or ns");
+  v.text("merge_time_unit", t.merge_time_unit,
+         "unit of the time in the second table: s, ms, us, ns, min, h or day");
   v.number("merge_rate", t.merge_rate, not_negative, "Hz",
            "samples per second of the second table, instead of times");
   v.number("merge_shift", t.merge_shift, any_number, "s",

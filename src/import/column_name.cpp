@@ -69,6 +69,30 @@ bool is_quantity(const std::string& word) {
 
 std::string trimmed(std::string_view text) { return std::string(without_blanks(text, " \t")); }
 
+/// The words of a name: tip, pos, x of "tip_posX".
+std::vector<Word> words_of(const std::string& bare) {
+  std::vector<Word> words;
+  for (std::size_t i = 0; i < bare.size(); ++i) {
+    if (!alnum(bare[i])) continue;
+    const bool hump = i > 0 && std::islower(static_cast<unsigned char>(bare[i - 1])) &&
+                      std::isupper(static_cast<unsigned char>(bare[i]));
+    if (i == 0 || !alnum(bare[i - 1]) || hump) words.push_back({"", i});
+    words.back().text += lower(bare[i]);
+  }
+  return words;
+}
+
+bool ends_in_time(const std::string& name) {
+  const std::vector<Word> words = words_of(name);
+  return !words.empty() && time_words.contains(words.back().text);
+}
+
+/// True for minutes, hours and days, whose names mean other things, too: "x_min", "day".
+bool is_coarse_time(std::string_view unit) {
+  const auto known = known_unit(Quantity::time, unit);
+  return known && known->factor > 1.0;
+}
+
 void take_unit(const std::string& name, ColumnName& column) {
   column.bare = name;
   const auto open = name.find_last_of("[(");
@@ -86,24 +110,12 @@ void take_unit(const std::string& name, ColumnName& column) {
     for (const auto at : {name.rfind(mark), first}) {
       const std::string unit = name.substr(at + 1);
       if (at == 0 || !is_unit(unit) || unit == "second") continue;  // "x_second" follows "x_first"
+      if (is_coarse_time(unit) && !ends_in_time(name.substr(0, at))) continue;
       column.unit = unit_symbol(unit);
       column.bare = trimmed(name.substr(0, at));
       return;
     }
   }
-}
-
-/// The words of a name: tip, pos, x of "tip_posX".
-std::vector<Word> words_of(const std::string& bare) {
-  std::vector<Word> words;
-  for (std::size_t i = 0; i < bare.size(); ++i) {
-    if (!alnum(bare[i])) continue;
-    const bool hump = i > 0 && std::islower(static_cast<unsigned char>(bare[i - 1])) &&
-                      std::isupper(static_cast<unsigned char>(bare[i]));
-    if (i == 0 || !alnum(bare[i - 1]) || hump) words.push_back({"", i});
-    words.back().text += lower(bare[i]);
-  }
-  return words;
 }
 
 class NameReader {
@@ -162,8 +174,8 @@ class NameReader {
 
   /// A unit of time may be the whole name, or stand for "stamp_sec" and the like.
   bool take_time() {
-    const bool is_unit_of_time =
-        last().size() > 1 && last() != "second" && known_unit(Quantity::time, last());
+    const bool is_unit_of_time = last().size() > 1 && last() != "second" &&
+                                 known_unit(Quantity::time, last()) && !is_coarse_time(last());
     const bool has_time = words_.size() > 1 && time_words.contains(words_[words_.size() - 2].text);
     if (column_.unit.empty() && is_unit_of_time && (words_.size() == 1 || has_time)) {
       column_.unit = unit_symbol(last());
@@ -173,6 +185,7 @@ class NameReader {
       return false;
     }
     column_.means = Means::time;
+    if (is_coarse_time(column_.unit)) ++column_.rank;  // seconds beside them say more
     return true;
   }
 

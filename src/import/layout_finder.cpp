@@ -20,7 +20,7 @@ constexpr const char* means_names[] = {"position", "velocity", "force", "orienta
 /// True for a unit of seconds, or of fractions of them.
 bool is_part_of_clock(const std::string& unit, bool seconds) {
   const auto known = known_unit(Quantity::time, unit);
-  return known && (known->divisor == 1.0) == seconds;
+  return known && known->factor == 1.0 && (known->divisor == 1.0) == seconds;
 }
 
 /// True if a value of a column in ms, us or ns is a second at least.

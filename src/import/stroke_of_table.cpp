@@ -23,12 +23,12 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 /// Vectors of a stroke from 2 or 3 columns.
-std::vector<Vector3d> vectors(const SampleTable& table, const ColumnChoices& choices, const Unit& unit) {
+std::vector<Vector3d> vectors(const SampleTable& table, const ColumnChoices& choices, const NamedUnit& unit) {
   std::vector<Vector3d> rows(table.size(), Vector3d::Zero());
   for (std::size_t k = 0; k < choices.size(); ++k) {
     const std::vector<double>& values = table.columns[choices[k].column].values;
     for (std::size_t i = 0; i < rows.size(); ++i)
-      rows[i][static_cast<Eigen::Index>(k)] = choices[k].sign * unit.to_si(values[i]);
+      rows[i][static_cast<Eigen::Index>(k)] = choices[k].sign * unit.of(k).to_si(values[i]);
   }
   return rows;
 }
@@ -112,17 +112,17 @@ class StrokeMaker {
 
   void take_columns() {
     Stroke& stroke = made_.stroke;
-    stroke.position = vectors(table_, layout_.position, used_.length.unit);
+    stroke.position = vectors(table_, layout_.position, used_.length);
     if (!layout_.position.empty()) {
       tell(fmt::format("position {} ({})", names(layout_.position), used_.length.name));
       warn_of_axes();
     }
     if (!layout_.velocity.empty()) {
-      stroke.velocity = vectors(table_, layout_.velocity, used_.speed.unit);
+      stroke.velocity = vectors(table_, layout_.velocity, used_.speed);
       tell(fmt::format("velocity {} ({})", names(layout_.velocity), used_.speed.name));
     }
     if (!layout_.force.empty()) {
-      stroke.force = vectors(table_, layout_.force, used_.force.unit);
+      stroke.force = vectors(table_, layout_.force, used_.force);
       tell(fmt::format("force {} ({})", names(layout_.force), used_.force.name));
       stroke.force_sign = settings_.force_sign;
       if (settings_.force_sign == ForceSign::not_said)

@@ -44,6 +44,12 @@ void take_stamps(TableTimes& times, const SampleColumn& column, const std::strin
                                      option_and_key(key), unit_symbols(Quantity::time)));
     return;
   }
+  const auto own = known_unit(Quantity::time, column.unit);
+  if (own && own->to_si(1.0) != of_time->to_si(1.0))
+    times.warnings.push_back(
+        fmt::format("column '{}' is in {} by the file, but is read in {}, which {} says; "
+                    "leave that out to use the file's unit",
+                    column.name, column.unit, unit, option_and_key(key)));
   for (const double stamp : column.values)
     times.time.push_back(std::isfinite(stamp) ? of_time->to_si(stamp) : std::nan(""));
   if (column.origin) {

@@ -33,7 +33,7 @@ bool is_pixel(std::string_view name);
 /// newtons. pixel_size [m]: the meaning of "px"; 0: not given. Error: input, listing the units there are.
 Unit unit_of(Quantity quantity, const std::string& name, double pixel_size = 0.0);
 
-/// The symbols of a quantity, for people: "s, ms, us, ns".
+/// The symbols of a quantity, for people: "s, ms, us, ns, min, h, day".
 std::string unit_symbols(Quantity quantity);
 
 }  // namespace sandstroke

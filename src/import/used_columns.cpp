@@ -1,6 +1,7 @@
 #include "import/used_columns.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 #include "import/missing_samples.h"
@@ -70,6 +71,38 @@ class ColumnsFinder {
     return same ? unit : "";
   }
 
+  /// The unit of each column, if all are known and they differ.
+  std::optional<NamedUnit> own_units(Quantity quantity, const ColumnChoices& choices) const {
+    NamedUnit units;
+    for (const ColumnChoice& choice : choices) {
+      const std::string& unit = table_.columns[choice.column].unit;
+      const auto known = known_unit(quantity, unit);
+      if (!known || is_pixel(unit)) return std::nullopt;
+      units.name += (units.name.empty() ? "" : ", ") + unit;
+      units.each.push_back(*known);
+    }
+    if (!own_unit(choices).empty()) return std::nullopt;
+    units.unit = units.each.front();
+    return units;
+  }
+
+  /// Tells of columns whose own unit is another one than the user gives.
+  void compare_with_own(Quantity quantity, const std::string& given, const Unit& unit,
+                        const ColumnChoices& choices, const std::string& key) {
+    for (const ColumnChoice& choice : choices) {
+      const SampleColumn& column = table_.columns[choice.column];
+      const auto own = known_unit(quantity, column.unit);
+      if (!own || (is_pixel(column.unit) && is_pixel(given))) continue;
+      const double ratio = own->to_si(1.0) / unit.to_si(1.0);
+      if (!is_pixel(column.unit) && std::abs(ratio - 1.0) < 1e-9) continue;
+      used_.warnings.push_back(
+          fmt::format("{}: column '{}' is in {} by the file, but is read in {}, which {} "
+                      "says; leave that out to use the file's unit",
+                      name_, column.name, column.unit, given, option_and_key(key)));
+      return;
+    }
+  }
+
   std::string unit_not_known(const ColumnChoices& choices) const {
     std::vector<std::string> units;
     for (const ColumnChoice& choice : choices) units.push_back(table_.columns[choice.column].unit);
@@ -99,9 +132,15 @@ class ColumnsFinder {
   NamedUnit position_unit() {
     const ColumnChoices& position = used_.layout.position;
     std::string unit = settings_.position_unit;
-    if (unit.empty()) unit = own_unit(position);
-    if (!unit.empty() && (unit != "radius" || !settings_.position_unit.empty()))
-      return unit_named(Quantity::length, unit, position, "position_unit");
+    if (unit.empty()) {
+      if (const auto units = own_units(Quantity::length, position)) return *units;
+      unit = own_unit(position);
+    }
+    if (!unit.empty() && (unit != "radius" || !settings_.position_unit.empty())) {
+      const NamedUnit named = unit_named(Quantity::length, unit, position, "position_unit");
+      compare_with_own(Quantity::length, unit, named.unit, position, "position_unit");
+      return named;
+    }
     used_.asks.push_back(fmt::format("the unit of {} is {}; give {}: {}", names(position),
                                      unit.empty() ? unit_not_known(position) : "the pattern's radius",
                                      option_and_key("position_unit"),
@@ -113,6 +152,8 @@ class ColumnsFinder {
   NamedUnit unit_of_optional(const OptionalColumns& one, Quantity quantity, const std::string& given) {
     if (one.choices->empty()) return {};
     const std::string key = std::string(one.key) + "_unit";
+    if (given.empty())
+      if (const auto units = own_units(quantity, *one.choices)) return *units;
     const std::string unit = given.empty() ? own_unit(*one.choices) : given;
     if (one.asked && unit.empty()) {
       used_.asks.push_back(fmt::format("the unit of {} is {}; give {}: {}", names(*one.choices),
@@ -120,8 +161,11 @@ class ColumnsFinder {
                                        unit_symbols(quantity)));
       return {};
     }
-    if (one.asked || !given.empty() || known_unit(quantity, unit))
-      return unit_named(quantity, unit, *one.choices, key.c_str());
+    if (one.asked || !given.empty() || known_unit(quantity, unit)) {
+      const NamedUnit named = unit_named(quantity, unit, *one.choices, key.c_str());
+      compare_with_own(quantity, unit, named.unit, *one.choices, key);
+      return named;
+    }
     leave_out(one, fmt::format("because its unit is not known; give {}", option_and_key(key)));
     return {};
   }

@@ -12,7 +12,9 @@ namespace sandstroke {
 /// A unit, and what the user or the table calls it.
 struct NamedUnit {
   std::string name;
-  Unit unit;
+  Unit unit;                    ///< of the first column
+  std::vector<Unit> each = {};  ///< one per column, if they differ
+  const Unit& of(std::size_t column) const { return each.empty() ? unit : each[column]; }
 };
 
 /// The columns that a stroke takes from a table, and the samples that lack a value in them.

@@ -206,8 +206,8 @@ TEST(Dialect, ThousandsAreNotTakenForDecimals) {
 TEST(Dialect, WhatIsMissingIsAskedForInOneSentence) {
   const std::string said = refusal("x,y\n1,2\n", {});
   EXPECT_THAT(said, AllOf(HasSubstr("unit of x, y is not known"), HasSubstr("; and the times are unknown")));
-  EXPECT_THAT(refusal("x_m,y_mm,t_s\n1,2,0\n", {}),
-              HasSubstr("unit of x_m, y_mm is not the same in all columns (m, mm)"));
+  EXPECT_THAT(refusal("x_m,y_px,t_s\n1,2,0\n", {}),
+              HasSubstr("unit of x_m, y_px is not the same in all columns (m, px)"));
 }
 
 TEST(TableUnits, WholeNumbersBecomeTheNearestDouble) {

@@ -262,6 +262,46 @@ TEST(TableUnitsInWords, UnknownOnesNameTheFileTheColumnAndTheOption) {
   EXPECT_EQ(imported("x,y,fx [kgf],fy [kgf]\n1,2,1,2\n").stroke.force[0], Vector3d(9.80665, 19.6133, 0));
 }
 
+TEST(TableUnitsInWords, EachColumnHasItsOwn) {
+  const ImportedStroke found = imported("t_s,x_mm,y_mm,z_cm,fx_N,fy_mN\n0,1,2,3,4,5\n", {});
+  EXPECT_EQ(found.stroke.position[0], Vector3d(0.001, 0.002, 0.03));
+  EXPECT_EQ(found.stroke.force[0], Vector3d(4, 0.005, 0));
+  EXPECT_THAT(found.description, HasSubstr("position x_mm, y_mm, z_cm (mm, mm, cm)"));
+}
+
+TEST(TableUnitsInWords, AnOptionThatDisagreesIsTold) {
+  TableSettings settings = metres_at_10_hz();
+  EXPECT_THAT(imported("x_mm,y_mm\n1,2\n", settings).warnings,
+              ElementsAre(AllOf(HasSubstr("column 'x_mm' is in mm by the file, but is read in m"),
+                                HasSubstr("--position-unit"))));
+  EXPECT_THAT(imported("x_px,y_px\n1,2\n", settings).warnings,
+              testing::Contains(HasSubstr("column 'x_px' is in px by the file, but is read in m")));
+  EXPECT_THAT(imported("x_m,y_mm\n1,2\n", settings).warnings, ElementsAre(HasSubstr("column 'y_mm'")));
+  settings.position_unit = "0.001";
+  EXPECT_THAT(imported("x_mm,y_mm\n1,2\n", settings).warnings, ElementsAre());
+  settings.rate = 0.0;
+  settings.time_unit = "s";
+  EXPECT_THAT(imported("t_ms,x_mm,y_mm\n1,1,2\n", settings).warnings,
+              ElementsAre(AllOf(HasSubstr("column 't_ms' is in ms"), HasSubstr("--time-unit"))));
+}
+
+TEST(TableUnitsInWords, MinutesToDaysAndFeetToKilometresAreKnown) {
+  struct Case {
+    const char* text;
+    double time, x;
+  };
+  for (const Case& one : {Case{"t_min,x_ft,y_ft\n0,0,0\n1,1,0\n", 60.0, 0.3048},
+                          {"Time (hours),x_dm,y_dm\n0,0,0\n1,1,0\n", 3600.0, 0.1},
+                          {"time [day],x_km,y_km\n0,0,0\n1,1,0\n", 86400.0, 1000.0},
+                          {"time_min,time_s,x_nm,y_nm\n0,0,0,0\n1,60,1,0\n", 60.0, 1e-9}}) {
+    const Stroke stroke = imported(one.text, {}).stroke;
+    EXPECT_EQ(stroke.time.at(1), one.time) << one.text;
+    EXPECT_EQ(stroke.position.at(1).x(), one.x) << one.text;
+  }
+  for (const char* name : {"x_min", "day", "hour"})
+    EXPECT_EQ(column_name(name).means, ColumnName::Means::other) << name;
+}
+
 /// The values of a column, with -1 for a missing one.
 std::vector<double> values(const SampleTable& table, const std::string& name) {
   std::vector<double> all = column(table, name).values;
