@@ -47,6 +47,7 @@ class PenReader {
   }
 
   void take_state(const SampleColumn& column) {
+    if (column.values.empty()) return;  // it has other words, as the reader of the cells told
     const auto is_up = [&](double value) {
       return !std::isfinite(value) || (value != 0.0) == layout_.state_is_up;
     };
@@ -91,12 +92,16 @@ class PenReader {
 
   void ask_state(const SampleColumn& column) {
     const std::vector<double>& values = column.values;
-    const bool is_state =
-        std::all_of(values.begin(), values.end(), [](double value) { return value == 0.0 || value == 1.0; });
-    if (is_state && changes_of(values) > 0)
+    const auto has = [&](double state) {
+      return std::find(values.begin(), values.end(), state) != values.end();
+    };
+    const bool is_state = std::all_of(values.begin(), values.end(), [](double value) {
+      return value == 0.0 || value == 1.0 || !std::isfinite(value);
+    });
+    if (is_state && has(0.0) && has(1.0))
       warn(
-          fmt::format("column '{}' changes between 0 and 1, as the state of a pen does, but the pen stays "
-                      "down; if it is one, name it with {}",
+          fmt::format("column '{}' changes between 0 and 1 (or up and down), as the state of a pen does, but "
+                      "the pen stays down; if it is one, name it with {}",
                       column.name, option_and_key("pen_state")));
   }
 

@@ -15,36 +15,41 @@ namespace sandstroke {
 
 /// Reads those cells of a text's rows that the stroke needs. Numbers stay numbers; a cell without a value is
 /// NaN. The pen's state may be true or down, false or up; the number of a stroke may be any text. In columns
-/// that only perhaps tell of a pen, text is NaN.
+/// that only perhaps tell of a pen's state, other text is NaN. So it is in a column of states that nobody
+/// named, which is emptied at the end then, with a warning.
 class SampleCells {
  public:
   SampleCells() = default;
-  SampleCells(const TableLayout& layout, DecimalMark decimal);
+  SampleCells(const TableLayout& layout, const TableSettings& settings, DecimalMark decimal);
 
   /// Appends a row to the columns that are used. Error: input; `name` and `line` say where the row stands.
   void read(const std::vector<std::string>& fields, SampleTable& table, const std::string& name,
             std::size_t line);
-  /// Notes the clock of the times, after the last row.
-  void finish(SampleTable& table) const;
+  /// Notes the clock of the times, after the last row. `name` is the table's.
+  void finish(SampleTable& table, const std::string& name) const;
 
  private:
-  enum class Cell { number, state, label, perhaps };
+  enum class Cell { number, state, label, perhaps_state, perhaps_number };
   struct Wanted {
     std::size_t column;
     Cell cell;
+    std::string label = {};  // the last text in a column of stroke numbers
+    double labels = 0.0;     // how often it changed
   };
 
   void want(std::size_t column, Cell cell);
   std::optional<double> time_of(const std::string& field);
-  std::optional<double> value_of(const std::string& field, Cell cell);
+  std::optional<double> value_of(const std::string& field, Wanted& wanted, const SampleTable& table);
+  std::optional<double> state_of(const std::string& field, const SampleColumn& column) const;
 
   std::optional<std::size_t> time_;
   bool times_count_ = false;    // a rate or a speed does not replace them
   std::vector<Wanted> wanted_;  // columns to read, except the time
   DecimalMark decimal_ = DecimalMark::point;
   TimeStamps stamps_;
-  std::string label_;    // the last text in the column of stroke numbers
-  double labels_ = 0.0;  // how often it changed
+  std::optional<std::size_t> found_state_;  // a column of states that nobody named
+  bool named_up_ = false;                   // TableLayout::state_named_up
+  std::string unknown_state_;               // a text in it that tells no state
 };
 
 /// The beginning of a text, short enough for a sentence.

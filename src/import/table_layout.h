@@ -29,6 +29,7 @@ struct TableLayout {
   std::optional<std::size_t> stroke_number;  ///< the pen lifts where its value changes
   std::optional<std::size_t> pen_state;      ///< the pen is down where it is not 0, or up if state_is_up
   bool state_is_up = false;
+  bool state_named_up = false;  ///< its name says up, as "hover" does
   /// Columns whose names do not tell clearly; none, if clear ones were found.
   std::vector<std::size_t> perhaps_stroke_number, perhaps_pen_state;
   /// From the table's axes to the stroke's: its rows are the positions' columns.

@@ -54,7 +54,7 @@ class TextTable::Rows {
     lines_.end([this](std::string_view line, std::size_t number) { take_numbered(line, number); });
     if (!dialect_) begin_rows();
     if (table_.lines.empty()) throw_input_error("{}: has no samples; add at least one row", name_);
-    cells_.finish(table_);
+    cells_.finish(table_, name_);
     table_.description = fmt::format(
         "{}{}, {} columns, {} rows", lines_.encoding().empty() ? "" : lines_.encoding() + ", ",
         json_ ? "lines of JSON" : dialect_->text(), table_.columns.size(), grouped(table_.lines.size()));
@@ -232,7 +232,8 @@ class TextTable::Rows {
 
   void begin_samples() {
     after_header_ = false;
-    cells_ = SampleCells(table_layout(table_.columns, settings_, location_, of_first_), dialect_->decimal);
+    cells_ = SampleCells(table_layout(table_.columns, settings_, location_, of_first_), settings_,
+                         dialect_->decimal);
   }
 
   void take_sample(const std::vector<std::string>& fields) {

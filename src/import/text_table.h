@@ -21,7 +21,7 @@ namespace sandstroke {
 ///   of rows are no columns.
 ///
 /// It passes over blank lines, comments (# or %), and what settings.skip and skip_lines name. A cell that is
-/// empty or says NaN is NaN in the table; so is text in a column that only perhaps tells of a pen.
+/// empty or says NaN is NaN in the table; so is other text in a column that only perhaps tells of a pen.
 class TextTable {
  public:
   /// name: the file's name in messages. of_first: as in table_layout().

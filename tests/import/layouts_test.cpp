@@ -371,7 +371,18 @@ TEST(TablePen, IsDownWhereItsStateIsNot0) {
     EXPECT_THAT(down(std::string(name) + ",x,y\n0,1,1\n1,2,1\n0,3,1\n"), expected) << name;
   EXPECT_THAT(down("pen,x,y\nTrue,1,1\nFalse,2,1\nTrue,3,1\n"), expected);
   EXPECT_THAT(down("pen,x,y\nDOWN,1,1\nUP,2,1\nDOWN,3,1\n"), expected);
-  EXPECT_THAT(layout_refusal("pen,x,y\nmaybe,1,1\n"), HasSubstr("column 'pen': 'maybe'"));
+  for (const char* words : {"PD,PU", "contact,hover", "T,F", "y,n", "pen,air", "touch,hovering"}) {
+    const std::vector<std::string> word = parts_of_list(words);
+    const std::string rows = word[0] + ",1,1\n" + word[1] + ",2,1\n" + word[0] + ",3,1\n";
+    EXPECT_THAT(down("pen,x,y\n" + rows), expected) << words;
+  }
+  EXPECT_THAT(imported("pen,x,y\nred,1,1\nblue,2,1\n").stroke.contact, ElementsAre());
+  EXPECT_THAT(imported("pen,x,y\nred,1,1\nblue,2,1\n").warnings,
+              ElementsAre(AllOf(HasSubstr("'pen' is not taken for the pen's state, because 'red'"),
+                                HasSubstr("--pen-state"))));
+  TableSettings settings = metres_at_10_hz();
+  settings.pen_state = "pen";
+  EXPECT_THAT(layout_refusal("pen,x,y\nmaybe,1,1\n", settings), HasSubstr("column 'pen': 'maybe'"));
   EXPECT_THAT(imported("pen,x,y\n1,1,1\n0,2,1\n").description,
               HasSubstr("pen state pen: up where it is 0, in 1"));
   const ImportedStroke never = imported("pen,x,y\n0,1,1\n0,2,1\n");
@@ -421,6 +432,20 @@ TEST(TablePen, ColumnsThatPerhapsTellOfItAreTold) {
   settings.pen_state = "hover";
   EXPECT_THAT(imported("x,y,hover\n1,1,0\n2,1,1\n3,1,0\n", settings).stroke.contact,
               ElementsAre(pen_down, pen_up, pen_down));
+}
+
+TEST(TablePen, EventsOfAPointerAreTold) {
+  const std::string text = "x,y,event\n1,1,down\n2,1,move\n3,1,up\n4,1,move\n";
+  EXPECT_THAT(imported(text).warnings, ElementsAre(AllOf(HasSubstr("'event'"), HasSubstr("--pen-state"))));
+  TableSettings settings = metres_at_10_hz();
+  settings.pen_state = "event";
+  EXPECT_THAT(imported(text, settings).stroke.contact, ElementsAre(pen_down, pen_down, pen_up, pen_up));
+  EXPECT_THAT(imported("x,y,state\n1,1,down\n2,1,up\n").warnings, ElementsAre(HasSubstr("'state'")));
+  EXPECT_THAT(imported("x,y,trace\n1,1,a\n2,1,a\n3,1,b\n4,1,b\n").warnings,
+              ElementsAre(HasSubstr("--stroke-number")));
+  settings.pen_state = "hover";
+  EXPECT_THAT(imported("x,y,hover\n1,1,contact\n2,1,hover\n", settings).stroke.contact,
+              ElementsAre(pen_down, pen_up));
 }
 
 TEST(TablePen, ColumnsCanBeNamed) {
