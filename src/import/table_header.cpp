@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "import/text_parts.h"
 #include "import/units.h"
 
 namespace sandstroke {
@@ -29,9 +30,24 @@ std::optional<std::size_t> names_that_fit(const std::vector<std::string>& fields
   return std::max(named, without_spare);
 }
 
+/// Trims names that were quoted with blanks, and numbers those that are empty.
 void number_unnamed(std::vector<std::string>& names) {
-  for (std::size_t i = 0; i < names.size(); ++i)
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    names[i] = std::string(without_blanks(names[i]));
     if (names[i].empty()) names[i] = std::to_string(i + 1);
+  }
+}
+
+/// True if no text is a number, or all count from 0 or 1.
+bool may_be_names(const std::vector<std::string>& texts, DecimalMark decimal) {
+  std::vector<double> numbers;
+  for (const std::string& text : texts)
+    if (const auto number = field_number(text, decimal)) numbers.push_back(*number);
+  if (numbers.empty()) return true;
+  if (numbers.size() < texts.size() || (numbers[0] != 0.0 && numbers[0] != 1.0)) return false;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    if (numbers[i] != numbers[0] + static_cast<double>(i)) return false;
+  return true;
 }
 
 }  // namespace
@@ -40,11 +56,14 @@ RowShape row_shape(const std::vector<std::string>& lines, const Dialect& dialect
                    std::size_t fields_of_most) {
   LineSplitter splitter;
   RowShape shape{fields_of_most, fields_of_most};
+  std::vector<std::string> first;
   for (const std::string& line : lines) {
     const std::vector<std::string>& fields = splitter.split(line, dialect.separator);
     if (fields.size() != shape.fields || !has_value(fields, dialect)) continue;
     shape.spare = std::min(shape.spare, fields.size() - length_without_empty_end(fields));
+    first.push_back(fields[0]);
   }
+  shape.may_have_names = may_be_names(first, dialect.decimal);
   if (shape.spare == shape.fields) shape.spare = 0;
   return shape;
 }
@@ -56,7 +75,8 @@ std::optional<TableHeader> table_header(const std::vector<std::string>& row, con
   if (is_header(row, dialect)) {
     header.found = header.is_row = true;
     header.names = row;
-    header.has_row_names = !fits && row.size() > 1 && row.size() + 1 == shape.fields - shape.spare;
+    header.has_row_names =
+        !fits && row.size() > 1 && row.size() + 1 == shape.fields - shape.spare && shape.may_have_names;
     if (!fits && !header.has_row_names) return std::nullopt;
     if (header.has_row_names)
       header.names.insert(header.names.begin(), "row");

@@ -13,6 +13,8 @@ namespace sandstroke {
 struct RowShape {
   std::size_t fields = 0;  ///< of most rows
   std::size_t spare = 0;   ///< last fields that are empty in all of these rows: separators at their ends
+  /// The first fields of these rows are no numbers, or count from 0 or 1: they may be names of the rows.
+  bool may_have_names = false;
 };
 RowShape row_shape(const std::vector<std::string>& lines, const Dialect& dialect, std::size_t fields_of_most);
 
@@ -25,8 +27,9 @@ struct TableHeader {
 };
 
 /// Looks for names in the first row, else in the comment above it. A header may have separators at its end,
-/// or lack those of the rows. It may lack the name of the first column, as R writes it; a last field that is
-/// empty in every row is no sign of that. None: the row is neither a header nor as long as the others.
+/// or lack those of the rows. It may lack the name of the first column, as R writes it, if the rows may have
+/// names; a last field that is empty in every row is no sign of that. None: the row is neither a header nor
+/// as long as the others.
 std::optional<TableHeader> table_header(const std::vector<std::string>& row, const std::string& comment,
                                         const Dialect& dialect, const RowShape& shape);
 

@@ -142,6 +142,20 @@ TEST(TableLayouts, AFieldBeyondTheColumnsIsRefused) {
   EXPECT_THAT(layout_refusal("x,y\n1,2,5,6,7\n1,2,5,6,8\n"), HasSubstr("the first line has 2 fields"));
 }
 
+TEST(TableLayouts, AShortHeaderLacksTheNamesOfRowsOnlyIfRowsHaveSome) {
+  const std::string header = "t_s,x_mm,y_mm\n";
+  EXPECT_THAT(layout_refusal(header + "0,1,2,20.5\n0.01,2,2,20.5\n"),
+              HasSubstr("the first line has 3 fields (t_s, x_mm, y_mm), but most lines have 4"));
+  EXPECT_THAT(layout_refusal(header + "5,1,2,20.5\n6,2,2,20.5\n"), HasSubstr("the first line has 3 fields"));
+  for (const char* rows : {"0,0,1,2\n1,0.1,2,2\n", "1,0,1,2\n2,0.1,2,2\n", "a,0,1,2\nb,0.1,2,2\n"})
+    EXPECT_EQ(imported(header + rows, {}).stroke.position.at(1), Vector3d(0.002, 0.002, 0)) << rows;
+}
+
+TEST(TableLayouts, QuotedNamesAreTrimmed) {
+  EXPECT_EQ(imported("\" x_mm \",\" y_mm \"\n1,2\n").stroke.size(), 1u);
+  EXPECT_EQ(layout_table("\" x_mm \",\" y_mm \"\n1,2\n").columns[0].unit, "mm");
+}
+
 TEST(TableLayouts, EqualCandidatesAreAskedFor) {
   EXPECT_THAT(
       layout_refusal("t,x,y,X,Y,Z\n0,640,480,0.1,0.2,0.3\n"),
