@@ -46,6 +46,7 @@ class ColumnsFinder {
                                       "orientation", true};
     used_.speed = unit_of_optional(velocity, Quantity::speed, settings_.velocity_unit);
     used_.force = unit_of_optional(force, Quantity::force, settings_.force_unit);
+    refuse_empty_height();
     missing_.need(indices_of(layout.position));
     if (layout.time) missing_.need({*layout.time});
     settle_pressure();
@@ -177,6 +178,16 @@ class ColumnsFinder {
     else
       used_.notes.push_back(sentence);
     one.choices->clear();
+  }
+
+  void refuse_empty_height() const {
+    const ColumnChoices& position = used_.layout.position;
+    if (position.size() != 3 || !has_no_values(table_.columns[position[2].column])) return;
+    throw_input_error(
+        "{}: column '{}' has no value in any sample; name another column for it, or, if the stroke is flat, "
+        "set {} to \"{}\"",
+        name_, table_.columns[position[2].column].name, option_and_key("position"),
+        names_of(table_, {position[0], position[1]}, ","));
   }
 
   /// A pressure that is missing does not say whether the pen is down.

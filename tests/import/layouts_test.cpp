@@ -344,6 +344,12 @@ TEST(TableMissing, CellsWithoutAValueAreNaN) {
   EXPECT_EQ(layout_table("x\ty\tz\n1\t2\t3\n\t\n\n3\t4\t5\n").size(), 2u) << "a single tab is a blank line";
 }
 
+TEST(TableMissing, AnEmptyHeightOffersAFlatStroke) {
+  for (const char* text : {"x,y,z\n1,2,\n3,4,\n", "x,y,z,b\n1,2,NaN,1\n3,4,,1\n"})
+    EXPECT_THAT(layout_refusal(text), AllOf(HasSubstr("in.csv: column 'z' has no value in any sample"),
+                                            HasSubstr("if the stroke is flat"), HasSubstr("to \"x,y\"")));
+}
+
 TEST(TableMissing, TextInAUsedColumnIsRefused) {
   EXPECT_THAT(layout_refusal("x,y,note\n1,2,a\n3,b,c\n"),
               HasSubstr("in.csv:3: column 'y': 'b' is not a finite number"));
