@@ -11,7 +11,8 @@ namespace sandstroke {
 namespace {
 
 constexpr std::size_t most_header_bytes = 1'000'000;
-constexpr std::size_t most_fields = 10'000;  // of an element, counting each number
+constexpr std::size_t most_fields = 10'000;  // of an element, counting each number and each group
+constexpr std::size_t longest_name = 1'000;  // each number of a field has a copy
 constexpr int most_npy_depth = 16;
 
 /// A value of Python: a text, a number, a list or tuple; of a dictionary, keys and values in turn.
@@ -89,6 +90,8 @@ class Fields {
   explicit Fields(NpyHeader& header, const std::string& name) : header_(header), name_(name) {}
 
   void take(const PythonValue& descr, const std::string& field, std::size_t count, int depth = 0) {
+    // Counts fields without bytes, too: a short header can repeat them without end.
+    if (count > most_fields || (taken_ += std::max<std::size_t>(count, 1)) > most_fields) refuse();
     if (descr.kind == PythonValue::Kind::text) return take_type(descr.text, field, count);
     if (descr.kind != PythonValue::Kind::list || depth > most_npy_depth) refuse();
     for (std::size_t i = 0; i < count; ++i) {
@@ -108,6 +111,7 @@ class Fields {
     const PythonValue& named = item.items[0];
     const bool titled = named.items.size() == 2;
     const std::string name = titled ? named.items[1].text : named.text;
+    if (name.size() > longest_name) refuse();
     std::size_t count = 1;
     if (item.items.size() == 3) {
       const PythonValue& shape = item.items[2];
@@ -128,12 +132,12 @@ class Fields {
     header_.has_objects = header_.has_objects || kind == 'O';
     constexpr std::size_t most = std::size_t{1} << 31;
     if (kind == 'O') size = 8;
-    if ((failure != std::errc() && kind != 'O') || size > most || count > most_fields) refuse();
+    if ((failure != std::errc() && kind != 'O') || size > most) refuse();
     if (kind == 'U') size *= 4;
     NpyField made{field, {StoredType::Kind::real, size, type[0] == '>'}, header_.element_bytes, count, "",
                   false};
     header_.element_bytes += size * count;
-    if (header_.element_bytes > most || header_.fields.size() > most_fields) refuse();
+    if (header_.element_bytes > most) refuse();
     if (is_number(kind, std::string_view(end, type.data() + type.size()), made) && count > 0)
       header_.fields.push_back(std::move(made));
   }
@@ -154,6 +158,7 @@ class Fields {
 
   NpyHeader& header_;
   const std::string& name_;
+  std::size_t taken_ = 0;  // fields, numbers and groups
 };
 
 const PythonValue* entry(const PythonValue& dictionary, std::string_view key) {

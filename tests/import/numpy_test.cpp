@@ -111,6 +111,18 @@ TEST(Npy, TimesKeepTheirUnitAndAllDigits) {
   EXPECT_THAT(whole.columns[0].values, ElementsAre(0, -1));
 }
 
+TEST(Npy, FieldsWithoutEndAreRefused) {
+  const std::string empty = "[('b', '|S0')]", side = "(10000,)";
+  for (const std::string& descr :
+       {"[('a', " + empty + ", 99999999999999999)]", "[('a', " + empty + ", (10001,))]",
+        "[('a', [('b', [('c', '|S0', " + side + ")], " + side + ")], " + side + ")]",
+        "[('a', [('b', [('c', '<f8', 0)], " + side + ")], " + side + ")]",
+        "[('a', [('b', [], " + side + ")], " + side + ")]",
+        "[('" + std::string(2000, 'a') + "', '<f8', (9000,))]"})
+    EXPECT_THAT(complaint_of([&] { numpy_table(npy(descr, "0,", "")); }), HasSubstr("has a damaged header"))
+        << descr;
+}
+
 TEST(Npy, SaysWhatIsWrong) {
   const std::string three = doubles({1, 2, 3});
   const struct {
