@@ -15,14 +15,16 @@ constexpr std::string_view ending = ".npy";
 
 SampleTable read_npz(const std::filesystem::path& path, const std::string& part) {
   const std::string file = path.string(), archive = whole_file(path);
-  ArrayBudget budget(file, static_cast<double>(archive.size()));
+  const auto size = static_cast<double>(archive.size());
+  ArrayBudget budget(file, size), unpacked(file, size);  // entries may share one member's bytes
   std::vector<NamedArray> arrays;
   std::string why_not;
   for (const ZipMember& member : zip_members(archive, file)) {
     if (!member.name.ends_with(ending)) continue;
     const std::string name = member.name.substr(0, member.name.size() - ending.size());
     const std::string label = fmt::format("{}: {}", file, member.name);
-    const std::string bytes = zip_unpacked(archive, member, budget.bytes_left(), file);
+    const std::string bytes = zip_unpacked(archive, member, unpacked.bytes_left(), file);
+    unpacked.take(member.name, static_cast<double>(bytes.size()) / sizeof(double));
     NpyArray read = npy_array(bytes, name, label, budget);
     if (read.why_not.empty()) {
       arrays.push_back(std::move(read.array));

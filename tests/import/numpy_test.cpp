@@ -210,6 +210,14 @@ TEST(Npz, DamageIsFound) {
   expect_answers_to_flips(folder / "a.npy", [](const fs::path& path) { return read_npy(path); });
 }
 
+TEST(Npz, EntriesThatShareAMemberAreRefused) {
+  ZipWriter zip(true);
+  zip.add("a.npy", npy("'|O'", "125000,", std::string(1'000'000, '\0')));
+  for (int i = 0; i < 400; ++i) zip.add_entry();
+  EXPECT_THAT(complaint_of([&] { table_of_archive(zip); }),
+              HasSubstr("more than it can hold; it is damaged"));
+}
+
 TEST(Npz, APositionIsFoundByItsName) {
   const TestFolder folder;
   ZipWriter zip(true);

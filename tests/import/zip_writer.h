@@ -23,8 +23,14 @@ class ZipWriter {
                               number(zip64_ ? beyond : packed.size(), 4) +
                               number(zip64_ ? beyond : content.size(), 4) + number(name.size(), 2);
     archive_ += "PK\x03\x04" + number(20, 2) + number(0, 2) + sizes + number(0, 2) + name + packed;
-    directory_ += "PK\x01\x02" + number(20, 4) + number(0, 2) + sizes + number(zip64_ ? large.size() : 0, 2) +
-                  number(0, 10) + number(zip64_ ? beyond : begin, 4) + name + (zip64_ ? large : "");
+    entry_ = "PK\x01\x02" + number(20, 4) + number(0, 2) + sizes + number(zip64_ ? large.size() : 0, 2) +
+             number(0, 10) + number(zip64_ ? beyond : begin, 4) + name + (zip64_ ? large : "");
+    add_entry();
+  }
+
+  /// Lists the last file once more.
+  void add_entry() {
+    directory_ += entry_;
     ++count_;
   }
 
@@ -63,7 +69,7 @@ class ZipWriter {
   }
 
   bool deflated_, zip64_;
-  std::string archive_, directory_;
+  std::string archive_, directory_, entry_;
   std::uint64_t count_ = 0;
 };
 
