@@ -102,9 +102,17 @@ bool is_binary(std::string_view head) {
   return head.find(std::string_view("\0\0", 2)) != std::string_view::npos;
 }
 
+/// True for an element ink, also with a prefix; xmlns:inkscape is none.
 bool is_inkml(std::string_view text) {
-  return text.starts_with('<') &&
-         (text.find("<ink") != std::string_view::npos || text.find(":ink") != std::string_view::npos);
+  if (!text.starts_with('<')) return false;
+  for (std::size_t at = text.find("ink"); at != std::string_view::npos; at = text.find("ink", at + 1)) {
+    const std::string_view around = text.substr(at - 1, 5);
+    const bool begins = around[0] == '<' || around[0] == ':';
+    if (begins && around.size() == 5 &&
+        std::string_view(" \t\r\n/>").find(around[4]) != std::string_view::npos)
+      return true;
+  }
+  return false;
 }
 
 bool is_gcode(const fs::path& path, std::string_view text) {

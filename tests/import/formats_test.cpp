@@ -40,6 +40,31 @@ TEST(Formats, AreKnownByContent) {
   EXPECT_THAT(description("a.txt", "IN;SP1;PU0,0;PD40,40;"), StartsWith("HPGL"));
 }
 
+/// The name of Inkscape's namespace begins as InkML's root does.
+TEST(Formats, AnSvgFromInkscapeIsNoInkml) {
+  EXPECT_THAT(
+      description(
+          "drawing.svg",
+          "<?xml version=\"1.0\" encoding=\"UTF-8\" standalone=\"no\"?>\n<!-- Created with Inkscape "
+          "(http://www.inkscape.org/) -->\n\n<svg\n   width=\"210mm\"\n   height=\"297mm\"\n   "
+          "viewBox=\"0 0 210 297\"\n   version=\"1.1\"\n   inkscape:version=\"1.2.2\"\n   "
+          "sodipodi:docname=\"drawing.svg\"\n   "
+          "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\"\n   "
+          "xmlns:sodipodi=\"http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd\"\n   "
+          "xmlns=\"http://www.w3.org/2000/svg\">\n  <sodipodi:namedview id=\"n\" "
+          "inkscape:zoom=\"1\" />\n  <g inkscape:label=\"Layer 1\" inkscape:groupmode=\"layer\">\n    "
+          "<path d=\"M 10,10 H 50\" sodipodi:nodetypes=\"cc\" />\n  </g>\n</svg>\n"),
+      StartsWith("SVG"));
+  for (const char* ink : {"<ink>", "<ink xmlns='http://www.w3.org/2003/InkML'>",
+                          "<ink\n xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape'>"})
+    EXPECT_THAT(description("a.txt", std::string(ink) + "<trace>1 2, 3 4</trace></ink>"),
+                StartsWith("InkML"));
+  EXPECT_THAT(description("a.txt",
+                          "<q:ink xmlns:q='http://www.w3.org/2003/InkML'><q:trace>1 2, 3 "
+                          "4</q:trace></q:ink>"),
+              StartsWith("InkML"));
+}
+
 TEST(Formats, OrByEndingWhereContentCannotTell) {
   EXPECT_THAT(description("track.THR", "0 0\n1 1\n"), StartsWith("theta-rho"));
   EXPECT_THAT(description("track.nc", "X1 Y1\nX2\n"), StartsWith("G-code"));
