@@ -28,7 +28,7 @@ void check_times(const Stroke& stroke, const std::vector<std::size_t>& lines, co
   }
 }
 
-void drop_equal_times(Stroke& stroke) {
+void drop_equal_times(Stroke& stroke, std::vector<std::size_t>& lines) {
   const std::vector<double> time = stroke.time;
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < time.size(); ++i) {
@@ -38,7 +38,7 @@ void drop_equal_times(Stroke& stroke) {
       stroke.contact[kept.back()] = pen_lifts;
     }
   }
-  keep_samples(stroke, kept);
+  keep_samples(stroke, lines, kept);
 }
 
 void spread_equal_times(Stroke& stroke, const std::string& name) {
@@ -65,10 +65,10 @@ void spread_equal_times(Stroke& stroke, const std::string& name) {
 
 }  // namespace
 
-void settle_equal_times(Stroke& stroke, const std::vector<std::size_t>& lines, EqualTimes rule,
+void settle_equal_times(Stroke& stroke, std::vector<std::size_t>& lines, EqualTimes rule,
                         const std::string& name) {
   check_times(stroke, lines, name, rule != EqualTimes::error);
-  if (rule == EqualTimes::drop) drop_equal_times(stroke);
+  if (rule == EqualTimes::drop) drop_equal_times(stroke, lines);
   if (rule == EqualTimes::spread) spread_equal_times(stroke, name);
 }
 

@@ -81,6 +81,10 @@ void leave_out_samples(Stroke& stroke, std::vector<std::size_t>& lines, const st
   if (!ends.empty()) stroke.contact.resize(left_out.size(), pen_down);
   for (const std::size_t i : ends)
     if (stroke.contact[i] == pen_down) stroke.contact[i] = pen_lifts;
+  keep_samples(stroke, lines, kept);
+}
+
+void keep_samples(Stroke& stroke, std::vector<std::size_t>& lines, const std::vector<std::size_t>& kept) {
   keep_samples(stroke, kept);
   if (lines.empty()) return;
   for (std::size_t i = 0; i < kept.size(); ++i) lines[i] = lines[kept[i]];

@@ -45,6 +45,9 @@ bool has_no_values(const SampleColumn& column);
 /// Removes samples from a stroke, and their lines. The sample before each gap lifts.
 void leave_out_samples(Stroke& stroke, std::vector<std::size_t>& lines, const std::vector<bool>& left_out);
 
+/// Keeps these samples, in increasing order, and their lines, if there are any.
+void keep_samples(Stroke& stroke, std::vector<std::size_t>& lines, const std::vector<std::size_t>& kept);
+
 /// A sample in messages: "FILE:LINE", or "FILE: sample I" if the file has no lines.
 std::string sample_location(const std::string& name, const std::vector<std::size_t>& lines, std::size_t i);
 

@@ -122,5 +122,19 @@ TEST(Redundancy, TheSentencesNameTheFileAndTheLine) {
   EXPECT_EQ(warnings_with(stroke_of_table(table, at_speed, "in.csv"), "--speed) of 1 m/s makes 0.699 s"), 1);
 }
 
+/// Line 40 is the wrong sample, whatever is left out before it.
+TEST(Redundancy, AJumpIsInItsLineAfterOthersAreDropped) {
+  SampleColumn t{"t", "s", {}}, x{"x", "m", {}}, y{"y", "m", {}};
+  for (int i = 0; i < 60; ++i) {
+    t.values.push_back(0.04 * (i < 10 ? i / 2 : i));
+    x.values.push_back(i == 38 ? 5.0 : 0.001 * i);
+    y.values.push_back(i == 20 ? nan_value : 0.0);
+  }
+  TableSettings drop;
+  drop.equal_times = EqualTimes::drop;
+  EXPECT_EQ(warnings_with(stroke_of_table(table_of({t, x, y}), drop, "in.csv"), "in.csv:40: the tip jumps"),
+            1);
+}
+
 }  // namespace
 }  // namespace sandstroke
