@@ -15,7 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Settings for reading the second table. It has the force and the orientation that the settings name.
+/// Settings for reading the second table. It has the force and the orientation that the settings name, and
+/// nothing else may leave its samples out.
 TableSettings settings_of_second(const TableSettings& settings) {
   TableSettings second;
   second.part = settings.merge_part;
@@ -28,6 +29,8 @@ TableSettings settings_of_second(const TableSettings& settings) {
   second.force_unit = settings.force_unit;
   second.force_sign = settings.force_sign;
   second.orientation = settings.orientation;
+  for (std::string* of_first : {&second.velocity, &second.pressure, &second.stroke_number, &second.pen_state})
+    *of_first = "none";
   return second;
 }
 

@@ -222,6 +222,24 @@ TEST_F(MergedTables, ForcesAreInterpolatedAtTheFirstOnesTimes) {
   EXPECT_EQ(stroke.force_sign, ForceSign::on_device);
 }
 
+/// A pen in the second table says nothing of the first one's samples.
+TEST_F(MergedTables, OtherColumnsOfTheSecondLeaveNothingOut) {
+  const std::string first = "t_s,x_m,y_m\n0,0,0\n1,1,0\n2,2,0\n3,3,0\n";
+  const std::vector<Vector3d> plain =
+      merged(first, "t_s,fx_N,fy_N\n0,0,0\n1,2,0\n2,4,0\n3,6,0\n").stroke.force;
+  ASSERT_EQ(plain.size(), 4u);
+  for (const std::string second :
+       {"t_s,fx_N,fy_N,pressure\n0,0,0,1\n1,2,0,\n2,4,0,0\n3,6,0,1\n",
+        "t_s,fx_N,fy_N,pen_down\n0,0,0,1\n1,2,0,0\n2,4,0,0\n3,6,0,1\n",
+        "t_s,fx_N,fy_N,stroke_id\n0,0,0,1\n1,2,0,1\n2,4,0,2\n3,6,0,2\n",
+        "t_s,fx_N,fy_N,vx_mps,vy_mps\n0,0,0,1,1\n1,2,0,,\n2,4,0,1,1\n3,6,0,1,1\n"}) {
+    const ImportedStroke made = merged(first, second);
+    EXPECT_EQ(made.stroke.force, plain) << second;
+    EXPECT_TRUE(made.stroke.joined(1)) << second;
+    EXPECT_THAT(made.warnings, ElementsAre()) << second;
+  }
+}
+
 TEST_F(MergedTables, TheSecondOnesTimesHaveTheirOwnKeys) {
   EXPECT_THAT(refusal("t_s,x_m,y_m\n0,0,0\n1,1,0\n", "t,fx_N,fy_N,fz_N\n0,1,2,3\n1,4,5,6\n"),
               HasSubstr("give stroke.table.merge_time_unit"));
