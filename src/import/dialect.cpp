@@ -19,6 +19,19 @@ constexpr unsigned char separator_bytes[] = {',', ',', ';', '\t', ' '};
 /// A mark that stands in sentences and headers as well as for a missing value.
 bool says_nothing(const std::string& field) { return field.empty() || field == "-" || field == "."; }
 
+/// True for a field that is one of these words, in small or large letters.
+template <std::size_t N>
+bool is_one_of(const std::string_view (&words)[N], std::string_view field) {
+  constexpr std::size_t longest = 9;
+  if (field.size() > longest || std::isdigit(static_cast<unsigned char>(field.back()))) return false;
+  const auto same = [](char one, char c) {
+    return one == static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  };
+  return std::any_of(std::begin(words), std::end(words), [&](std::string_view word) {
+    return std::equal(word.begin(), word.end(), field.begin(), field.end(), same);
+  });
+}
+
 /// How well a dialect fits the lines: many fields are numbers, few are not, and most rows are equally long.
 /// Lines without a number are names, units or remarks, and only their length counts.
 long score_of(const std::vector<std::string>& lines, const Dialect& dialect, std::size_t& columns) {
@@ -110,19 +123,17 @@ std::optional<double> field_number(const std::string& field, DecimalMark decimal
 }
 
 bool is_missing(std::string_view field) {
-  if (field.empty()) return true;
-  constexpr std::string_view words[] = {"-",        "--",        "?",       ".",       "na",    "n/a",
-                                        "#n/a",     "nan",       "-nan",    "+nan",    "nil",   "null",
-                                        "none",     "missing",   "#nan",    "<na>",    "nat",   "nan()",
-                                        "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind", "1.#ind"};
-  constexpr std::size_t longest = 9;
-  if (field.size() > longest || std::isdigit(static_cast<unsigned char>(field.back()))) return false;
-  const auto same = [](char one, char c) {
-    return one == static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  };
-  return std::any_of(std::begin(words), std::end(words), [&](std::string_view word) {
-    return std::equal(word.begin(), word.end(), field.begin(), field.end(), same);
-  });
+  constexpr std::string_view words[] = {"-",         "--",      "?",       ".",     "na",    "n/a",
+                                        "nan",       "-nan",    "+nan",    "nil",   "null",  "none",
+                                        "missing",   "#nan",    "<na>",    "nat",   "nan()", "nan(ind)",
+                                        "-nan(ind)", "1.#qnan", "-1.#ind", "1.#ind"};
+  return field.empty() || is_one_of(words, field) || is_spreadsheet_error(field);
+}
+
+bool is_spreadsheet_error(std::string_view field) {
+  constexpr std::string_view words[] = {"#n/a",   "#ref!",  "#div/0!", "#value!", "#num!",
+                                        "#name?", "#null!", "#calc!",  "#spill!", "#error!"};
+  return field.starts_with('#') && is_one_of(words, field);
 }
 
 bool is_value(const std::string& field, DecimalMark decimal) {

@@ -40,6 +40,8 @@ class LineSplitter {
 std::optional<double> field_number(const std::string& field, DecimalMark decimal);
 /// True for a field that says that it has no value: empty, "nan", "N/A", "null", "-" and the like.
 bool is_missing(std::string_view field);
+/// True for what a spreadsheet shows in place of a value: "#N/A", "#REF!", "#DIV/0!" and the like.
+bool is_spreadsheet_error(std::string_view field);
 /// True for a number (also infinite), or a date with a time.
 bool is_value(const std::string& field, DecimalMark decimal);
 

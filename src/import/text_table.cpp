@@ -86,7 +86,7 @@ class TextTable::Rows {
     if (with_tabs.empty() || (line.empty() && nothing_before) || begins_with_one_of(line, skip_)) return;
     const bool lifts = begins_with_one_of(line, pen_up_);
     lifted_ = lifted_ || lifts;
-    if (!lifts && !line.empty() && (line[0] == '#' || line[0] == '%')) {
+    if (!lifts && is_comment(line)) {
       if (waiting_rows_ == 0 && !dialect_) comment_ = line.substr(1);
       return;
     }
@@ -122,6 +122,18 @@ class TextTable::Rows {
 
   static bool is_blank(std::string_view line) { return line.find_first_not_of('\t') == std::string::npos; }
 
+  /// True for a comment. A row may begin with the error of a spreadsheet's cell, too.
+  bool is_comment(std::string_view line) const {
+    if (!line.starts_with('#')) return line.starts_with('%');
+    return json_ || !is_spreadsheet_error(line.substr(0, line.find_first_of(" \t,;")));
+  }
+
+  /// True for a comment that begins as a row would.
+  bool is_late_comment(std::string_view line, std::size_t fields) const {
+    return line.starts_with('#') && fields != shape_.fields &&
+           (table_.columns.empty() || fields != table_.columns.size());
+  }
+
   /// Takes a line when the dialect is known. One of tabs alone is a row of empty fields, if it has enough of
   /// them.
   void take_fields(std::string_view line, bool lifts) {
@@ -130,6 +142,7 @@ class TextTable::Rows {
       return;
     }
     const std::vector<std::string>& fields = splitter_.split(line, dialect_->separator);
+    if (is_late_comment(line, fields.size())) return;
     const bool is_row =
         !is_blank(line) || (dialect_->separator == Separator::tab && fields.size() >= table_.columns.size());
     if (is_row) take_row(fields);

@@ -326,7 +326,7 @@ std::vector<double> values(const SampleTable& table, const std::string& name) {
 
 TEST(TableMissing, CellsWithoutAValueAreNaN) {
   for (const char* nothing : {"", "NaN", "nan", "-nan", "N/A", "NA", "n/a", "null", "NULL", "None", "-", "--",
-                              "#N/A", "nan(ind)", "-nan(ind)", "1.#QNAN"}) {
+                              "#N/A", "#NUM!", "#DIV/0!", "nan(ind)", "-nan(ind)", "1.#QNAN"}) {
     const std::string row = std::string(nothing) + "," + nothing;
     const SampleTable table =
         layout_table("a,x,y,fx,fy\n0,1,2," + row + "\n1," + row + "," + row + "\n2,3,4,5,6\n");
@@ -348,6 +348,28 @@ TEST(TableMissing, AnEmptyHeightOffersAFlatStroke) {
   for (const char* text : {"x,y,z\n1,2,\n3,4,\n", "x,y,z,b\n1,2,NaN,1\n3,4,,1\n"})
     EXPECT_THAT(layout_refusal(text), AllOf(HasSubstr("in.csv: column 'z' has no value in any sample"),
                                             HasSubstr("if the stroke is flat"), HasSubstr("to \"x,y\"")));
+}
+
+/// A sample that begins with one keeps its place on the clock of a rate.
+TEST(TableMissing, ErrorsOfSpreadsheetsAreNoComments) {
+  for (const char* error : {"#N/A", "#REF!", "#DIV/0!", "#VALUE!", "#NUM!", "#NAME?", "#NULL!"})
+    for (const char* separator : {",", ";", "\t", " "}) {
+      const auto row = [&](const std::string& x, const std::string& y) { return x + separator + y + "\n"; };
+      std::string rows;
+      for (int i = 0; i < 70; ++i) rows += row("1", "2");
+      const std::string text = row("x", "y") + row(error, "2") + row("3", "4") + row(error, error) + rows +
+                               row(error, "5") + "# " + error + "\n" + row("6", error);
+      const SampleTable table = layout_table(text);
+      EXPECT_EQ(table.size(), 75u) << text;
+      EXPECT_EQ(values(table, "x")[0], -1) << text;
+      EXPECT_EQ(values(table, "x")[73], -1) << text;
+      EXPECT_EQ(values(table, "y")[73], 5) << text;
+      const Stroke stroke = imported(text).stroke;
+      EXPECT_NEAR(stroke.time[1] - stroke.time[0], 0.2, 1e-12) << text;
+      EXPECT_FALSE(stroke.joined(0)) << text;
+    }
+  EXPECT_EQ(layout_table("#N/A: no marker was seen\nx,y\n1,2\n#N/A marks the end of a part\n3,4\n").size(),
+            2u);
 }
 
 TEST(TableMissing, TextInAUsedColumnIsRefused) {
