@@ -21,7 +21,7 @@ bool says_nothing(const std::string& field) { return field.empty() || field == "
 
 /// True for a field that is one of these words, in small or large letters.
 template <std::size_t N>
-bool is_one_of(const std::string_view (&words)[N], std::string_view field) {
+bool is_among(const std::string_view (&words)[N], std::string_view field) {
   constexpr std::size_t longest = 9;
   if (field.size() > longest || std::isdigit(static_cast<unsigned char>(field.back()))) return false;
   const auto same = [](char one, char c) {
@@ -127,13 +127,13 @@ bool is_missing(std::string_view field) {
                                         "nan",       "-nan",    "+nan",    "nil",   "null",  "none",
                                         "missing",   "#nan",    "<na>",    "nat",   "nan()", "nan(ind)",
                                         "-nan(ind)", "1.#qnan", "-1.#ind", "1.#ind"};
-  return field.empty() || is_one_of(words, field) || is_spreadsheet_error(field);
+  return field.empty() || is_among(words, field) || is_spreadsheet_error(field);
 }
 
 bool is_spreadsheet_error(std::string_view field) {
   constexpr std::string_view words[] = {"#n/a",   "#ref!",  "#div/0!", "#value!", "#num!",
                                         "#name?", "#null!", "#calc!",  "#spill!", "#error!"};
-  return field.starts_with('#') && is_one_of(words, field);
+  return field.starts_with('#') && is_among(words, field);
 }
 
 bool is_value(const std::string& field, DecimalMark decimal) {

@@ -11,8 +11,8 @@ namespace sandstroke {
 namespace {
 
 constexpr std::size_t most_header_bytes = 1'000'000;
-constexpr std::size_t most_fields = 10'000;  // of an element, counting each number and each group
-constexpr std::size_t longest_name = 1'000;  // each number of a field has a copy
+constexpr std::size_t most_fields = 10'000;        // of an element, counting each number and each group
+constexpr std::size_t longest_field_name = 1'000;  // each number of a field has a copy
 constexpr int most_npy_depth = 16;
 
 /// A value of Python: a text, a number, a list or tuple; of a dictionary, keys and values in turn.
@@ -111,7 +111,7 @@ class Fields {
     const PythonValue& named = item.items[0];
     const bool titled = named.items.size() == 2;
     const std::string name = titled ? named.items[1].text : named.text;
-    if (name.size() > longest_name) refuse();
+    if (name.size() > longest_field_name) refuse();
     std::size_t count = 1;
     if (item.items.size() == 3) {
       const PythonValue& shape = item.items[2];
