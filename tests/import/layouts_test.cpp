@@ -530,6 +530,35 @@ TEST(TableJson, LinesOfNumbersAreATable) {
   EXPECT_NE(layout_refusal("{\"word\":\"line\",\"drawing\":[[[1,2],[3,4]]]}\n"), "");
 }
 
+/// As Python's json.dumps writes them, also where nobody reads them.
+TEST(TableJson, NumbersThatJsonLacksAreMissing) {
+  const SampleTable table = layout_table(
+      "{\"x\": 1, \"y\": 2, \"f\": NaN, \"n\": \"NaN\"}\n{\"x\": NaN, \"y\": -Infinity, \"n\": \"a \\\" "
+      "NaN\"}\n"
+      "{\"x\":Infinity,\"y\":-4,\"n\":\"\\\\\",\"f\":-Infinity}\n");
+  EXPECT_THAT(values(table, "x"), ElementsAre(1, -1, -1));
+  EXPECT_THAT(values(table, "y"), ElementsAre(2, -1, -4));
+  EXPECT_EQ(
+      imported("{\"pos\":[5,6,7],\"f\":[NaN,0]}\n{\"pos\":[NaN,6,8]}\n{\"pos\":[5,6,8]}\n").stroke.size(),
+      2u);
+  EXPECT_THAT(layout_refusal("{\"x\":1,\"y\":2}\n{\"x\":nope,\"y\":NaN}\n"),
+              HasSubstr("in.csv:2: is not a JSON"));
+}
+
+/// Of lines with many names, some of which others lack, each value is in its column.
+TEST(TableJson, ManyNamesKeepTheirColumns) {
+  std::string first = "{\"x\":1,\"y\":2", second = "{\"y\":4,\"x\":3";
+  for (int i = 0; i < 2000; ++i) {
+    const std::string pair = ",\"k" + std::to_string(i) + "\":" + std::to_string(i);
+    first += pair;
+    if (i % 3 != 0) second += pair;
+  }
+  const SampleTable table = layout_table(first + "}\n" + second + "}\n{\"x\":5}\n");
+  EXPECT_EQ(table.columns.size(), 2002u);
+  EXPECT_THAT(values(table, "x"), ElementsAre(1, 3, 5));
+  EXPECT_THAT(values(table, "y"), ElementsAre(2, 4, -1));
+}
+
 TEST(TableClocks, InTwoColumnsAreOne) {
   for (const char* names :
        {"sec,nanosec", "secs,nsecs", "header.stamp.sec,header.stamp.nanosec", "stamp_sec,stamp_nanosec"}) {
