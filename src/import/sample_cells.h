@@ -34,7 +34,7 @@ class SampleCells {
     std::size_t column;
     Cell cell;
     std::string label = {};  // the last text in a column of stroke numbers
-    double labels = 0.0;     // how often it changed
+    double labels = 0x1p52;  // grows where it changes; larger than the numbers of strokes beside texts
   };
 
   void want(std::size_t column, Cell cell);

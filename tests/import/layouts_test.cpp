@@ -398,6 +398,13 @@ TEST(TablePen, LiftsWhereTheStrokeNumberChanges) {
   const ImportedStroke letters = imported("stroke,x,y\na,1,1\na,2,1\nb,5,5\nb,6,5\na,7,7\na,8,8\n");
   EXPECT_THAT(letters.stroke.contact,
               ElementsAre(pen_down, pen_lifts, pen_down, pen_lifts, pen_down, pen_down));
+  for (const char* labels : {"A1B2", "1A2B", "A1A1", "AB12", "12AB"}) {
+    std::string text = "stroke,x,y\n";
+    for (int i = 0; i < 8; ++i) text += std::string(1, labels[i / 2]) + ",1," + std::to_string(i) + "\n";
+    EXPECT_THAT(imported(text).stroke.contact, ElementsAre(pen_down, pen_lifts, pen_down, pen_lifts, pen_down,
+                                                           pen_lifts, pen_down, pen_down))
+        << labels;
+  }
   const std::string lengths = "stroke,x,y\n12,1,1\n12.5,2,1\n13,5,5\n13.5,6,5\n";
   EXPECT_THAT(imported(lengths).stroke.contact, ElementsAre());
   EXPECT_THAT(imported(lengths).warnings,
