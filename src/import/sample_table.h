@@ -29,7 +29,6 @@ struct SampleTable {
   std::vector<SampleColumn> columns;  ///< of equal length, or empty
   std::vector<std::size_t> lines;     ///< line of each sample in the file; empty: it has none
   std::vector<bool> lifts;  ///< the pen lifts right after the sample; empty: the file tells nothing of a pen
-  double rate = 0.0;        ///< Hz, if the file gives it
   /// > 0: the samples are not of a motion, but corners of a path of straight lines. The tip may leave the
   /// lines by this, in the unit of the position.
   double line_tolerance = 0.0;

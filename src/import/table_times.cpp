@@ -92,10 +92,6 @@ void compare(TableTimes& times, const SampleTable& table, const TableLayout& lay
             disagreement_with_times(table, layout, settings, times.time.back(), by, most);
         !twice.empty())
       warn(twice + "; leave out the rate to use the column");
-    if (table.rate > most * settings.rate || settings.rate > most * table.rate)
-      if (table.rate > 0.0)
-        warn(fmt::format("the file gives {} Hz, but {}; leave out the rate to use the file's", table.rate,
-                         by));
   }
   if (layout.sample_number && times.time.size() == table.columns[*layout.sample_number].values.size())
     warn(number_disagreement(table.columns[*layout.sample_number], times.time));
@@ -109,15 +105,15 @@ TableTimes table_times(const SampleTable& table, const TableLayout& layout, cons
   if (by_column + (settings.rate > 0.0) + (settings.speed > 0.0) > 1)
     throw_input_error("{}: the times are given twice; give only one of time, rate and speed", name);
   TableTimes times;
-  const double rate = settings.rate > 0.0 ? settings.rate : table.rate;
   if (layout.time) {
     take_stamps(times, table.columns[*layout.time], settings.time_unit, own_key("time_unit", is_second));
   } else if (settings.speed > 0.0) {
     times.text = fmt::format("{} m/s", settings.speed);
-  } else if (rate > 0.0) {
-    for (std::size_t i = 0; i < table.size(); ++i) times.time.push_back(static_cast<double>(i) / rate);
-    times.rate = rate;
-    times.text = fmt::format("{} Hz", rate);
+  } else if (settings.rate > 0.0) {
+    for (std::size_t i = 0; i < table.size(); ++i)
+      times.time.push_back(static_cast<double>(i) / settings.rate);
+    times.rate = settings.rate;
+    times.text = fmt::format("{} Hz", settings.rate);
   } else {
     times.asks.push_back(no_times(table, is_second));
   }
