@@ -19,8 +19,9 @@ bool has_fraction(double value) { return std::isfinite(value) && value != std::f
 }  // namespace
 
 void join_clock(SampleTable& table, const TableLayout& layout, const std::string& name) {
-  if (!layout.time || !layout.time_fraction || table.columns[*layout.time].unit == iso_unit) return;
-  SampleColumn& seconds = table.columns[*layout.time];
+  const std::optional<std::size_t>& time = layout.time ? layout.time : layout.replaced_time;
+  if (!time || !layout.time_fraction || table.columns[*time].unit == iso_unit) return;
+  SampleColumn& seconds = table.columns[*time];
   SampleColumn& fractions = table.columns[*layout.time_fraction];
   std::string unit = fractions.unit;
   if (unit.empty()) unit = column_name(fractions.name).unit;
@@ -32,13 +33,14 @@ void join_clock(SampleTable& table, const TableLayout& layout, const std::string
   if (std::any_of(seconds.values.begin(), seconds.values.end(), has_fraction)) return;
   for (std::size_t i = 0; i < size; ++i) {
     const double fraction = fractions.values[i];
-    if (known(i) && !(!has_fraction(fraction) && fraction >= 0.0 && fraction < per_second))
-      throw_input_error(
-          "{}{}: column '{}' is taken for the {} of the whole seconds in '{}', but {:.17g} is not between 0 "
-          "and {:g}; "
-          "name the one column of the time with {}",
-          name, table.lines.empty() ? fmt::format(": sample {}", i + 1) : fmt::format(":{}", table.lines[i]),
-          fractions.name, unit, seconds.name, fraction, per_second - 1.0, option_and_key("time"));
+    if (!known(i) || (!has_fraction(fraction) && fraction >= 0.0 && fraction < per_second)) continue;
+    if (!layout.time) return;  // nobody needs it
+    throw_input_error(
+        "{}{}: column '{}' is taken for the {} of the whole seconds in '{}', but {:.17g} is not between 0 "
+        "and {:g}; "
+        "name the one column of the time with {}",
+        name, table.lines.empty() ? fmt::format(": sample {}", i + 1) : fmt::format(":{}", table.lines[i]),
+        fractions.name, unit, seconds.name, fraction, per_second - 1.0, option_and_key("time"));
   }
   constexpr double most_seconds = 9e9;  // 64 bits hold their ns
   const std::int64_t origin = seconds.origin.value_or(0),
@@ -57,8 +59,10 @@ void join_clock(SampleTable& table, const TableLayout& layout, const std::string
   }
   seconds.origin = first;
   seconds.unit = joined_unit;
-  table.description += fmt::format("{}one clock of {} (whole seconds) and {} ({})",
-                                   table.description.empty() ? "" : "; ", seconds.name, fractions.name, unit);
+  if (layout.time)
+    table.description +=
+        fmt::format("{}one clock of {} (whole seconds) and {} ({})", table.description.empty() ? "" : "; ",
+                    seconds.name, fractions.name, unit);
   fractions.values.clear();
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/median.h"
 #include "haptics/stroke_pieces.h"
@@ -62,6 +63,18 @@ double agreement(const std::vector<TwoWays>& ways, Eigen::Index axis) {
   return product / std::sqrt(position * velocity);
 }
 
+/// The step of stamps that are coarser than the samples, so that some repeat: whole seconds. Else 0.
+double step_of_stamps(const std::vector<double>& stamps) {
+  double least = std::numeric_limits<double>::infinity();
+  bool repeat = false;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    const double step = stamps[i] - stamps[i - 1];
+    repeat = repeat || step == 0.0;
+    if (step > 0.0) least = std::min(least, step);
+  }
+  return repeat && std::isfinite(least) ? least : 0.0;
+}
+
 }  // namespace
 
 std::string time_disagreement(const SampleColumn& column, const std::string& unit, double duration,
@@ -71,13 +84,17 @@ std::string time_disagreement(const SampleColumn& column, const std::string& uni
                [](double value) { return std::isfinite(value); });
   if (finite.size() < 2 || !(finite.back() > finite.front())) return "";
   const double span = finite.back() - finite.front();
+  const double ends = 2.0 * step_of_stamps(finite);  // both stamps at the ends are rounded
+  const auto disagree = [&](const Unit& known) {
+    return known.to_si(span - ends) > factor * duration || duration > factor * known.to_si(span + ends);
+  };
   if (const auto known = known_unit(Quantity::time, unit)) {
-    if (!differ(known->to_si(span), duration, factor)) return "";
+    if (!disagree(*known)) return "";
     return fmt::format("the times in column {} last {:.4g} s, but {} makes {:.4g} s of the samples",
                        column.name, known->to_si(span), by, duration);
   }
   for (const char* any : {"s", "ms", "us", "ns"})
-    if (!differ(known_unit(Quantity::time, any)->to_si(span), duration, factor)) return "";
+    if (!disagree(*known_unit(Quantity::time, any))) return "";
   return fmt::format(
       "the times in column {} last {:.4g}, which in s, ms, us and ns differs from the {:.4g} s that {} makes "
       "of the samples",

@@ -12,7 +12,8 @@ namespace sandstroke {
 // is empty if they agree, or cannot be compared.
 
 /// The times of a column against a stroke that lasts `duration` [s] by something else, such as a rate; `by`
-/// names that. unit: of the column; empty: not known, any is taken. Durations may differ by `factor`.
+/// names that. unit: of the column; empty: not known, any is taken. Durations may differ by `factor`,
+/// and by a step at each end of stamps that are coarser than the samples.
 std::string time_disagreement(const SampleColumn& column, const std::string& unit, double duration,
                               const std::string& by, double factor);
 

@@ -42,8 +42,8 @@ SampleCells::SampleCells(const TableLayout& layout, const TableSettings& setting
   for (const ColumnChoices* choices :
        {&layout.position, &layout.velocity, &layout.force, &layout.orientation})
     for (const ColumnChoice& choice : *choices) want(choice.column, Cell::number);
-  for (const std::optional<std::size_t>& column : {layout.pressure, layout.time_fraction})
-    if (column) want(*column, Cell::number);
+  if (layout.pressure) want(*layout.pressure, Cell::number);
+  if (layout.time_fraction) want(*layout.time_fraction, times_count_ ? Cell::number : Cell::perhaps);
   if (layout.pen_state) want(*layout.pen_state, Cell::state);
   if (layout.stroke_number) want(*layout.stroke_number, Cell::label);
   for (const std::size_t column : layout.perhaps_pen_state) want(column, Cell::perhaps_state);

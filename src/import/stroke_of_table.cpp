@@ -97,7 +97,7 @@ class StrokeMaker {
     for (const std::optional<std::size_t>& column :
          {found_.time, found_.pressure, found_.stroke_number, found_.pen_state})
       if (column) used[*column] = true;
-    if (found_.time_fraction && table_.columns[*found_.time].unit == joined_unit)
+    if (found_.time && found_.time_fraction && table_.columns[*found_.time].unit == joined_unit)
       used[*found_.time_fraction] = true;
     constexpr std::size_t most = 8;
     std::vector<std::string> left;

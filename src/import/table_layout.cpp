@@ -109,8 +109,8 @@ TableLayout table_layout(const std::vector<SampleColumn>& columns, const TableSe
                           ? finder.found_time(of_first ? "merge_time" : "time", layout.warnings)
                           : finder.named_time(settings.time);
     layout.time = time.column;
-    layout.time_fraction = time.fraction;
   }
+  layout.time_fraction = time.fraction;
   layout.sample_number = finder.found_one(Means::number);
   return layout;
 }

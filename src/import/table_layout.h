@@ -25,7 +25,8 @@ struct TableLayout {
   std::optional<std::size_t> time, pressure;
   /// Columns that only check others: times that a rate or a speed replaces, and numbers of the samples.
   std::optional<std::size_t> replaced_time, sample_number;
-  std::optional<std::size_t> time_fraction;  ///< the time counts seconds, and this ms, us or ns of them
+  std::optional<std::size_t>
+      time_fraction;  ///< the time (or replaced one) counts seconds, and this ms, us or ns
   std::optional<std::size_t> stroke_number;  ///< the pen lifts where its value changes
   std::optional<std::size_t> pen_state;      ///< the pen is down where it is not 0, or up if state_is_up
   bool state_is_up = false;

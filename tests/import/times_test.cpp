@@ -113,5 +113,30 @@ TEST(TableTimes, AreGivenOnce) {
   EXPECT_THROW(timed({"0", "7"}, "t_s", settings), Error);
 }
 
+/// 2.5 s at 20 Hz, with clocks that the rate replaces.
+TEST(TableTimes, AClockIsComparedWithARateAsFinelyAsItTells) {
+  std::string ros = "sec,nanosec,x_m,y_m\n", whole = "t,x_m,y_m\n", broken = ros;
+  for (int i = 0; i < 50; ++i) {
+    const int ms = 990 + 50 * i;
+    const std::string xy = "," + std::to_string(i) + ",0\n";
+    ros += std::to_string(1700000000 + ms / 1000) + "," + std::to_string(ms % 1000 * 1000000) + xy;
+    broken += std::to_string(1700000000 + ms / 1000) + "," +
+              (i == 7 ? "x" : std::to_string(ms % 1000 * 1000000)) + xy;
+    whole += "2024-05-01T12:00:0" + std::to_string(ms / 1000) + "Z" + xy;
+  }
+  TableSettings settings;
+  settings.rate = 20.0;
+  for (const std::string& text : {ros, broken, whole})
+    EXPECT_THAT(import_stroke_text(text, "in.csv", settings).warnings, ElementsAre()) << text.substr(0, 80);
+  settings.rate = 200.0;
+  for (const std::string& text : {ros, whole})
+    EXPECT_THAT(import_stroke_text(text, "in.csv", settings).warnings,
+                ElementsAre(HasSubstr("in.csv: the times in column")))
+        << text.substr(0, 80);
+  settings.rate = 18.0;
+  EXPECT_THAT(import_stroke_text(ros, "in.csv", settings).warnings,
+              ElementsAre(HasSubstr("column sec last 2.45 s")));
+}
+
 }  // namespace
 }  // namespace sandstroke
