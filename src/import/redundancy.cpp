@@ -157,8 +157,8 @@ std::string velocity_disagreement(const Stroke& stroke, const std::vector<std::s
 }
 
 std::vector<Jump> jumps_of(const Stroke& stroke) {
-  constexpr std::size_t least_steps = 20;
-  constexpr double least_ratio = 20.0;    // to the fastest 1 % of all steps
+  constexpr std::size_t least_steps = 3, few_steps = 20;
+  constexpr double least_ratio = 20.0;    // to the fastest other steps, or the usual of few
   constexpr double least_distance = 0.1;  // of the stroke's extent
   std::vector<Jump> steps;
   std::vector<double> speeds;
@@ -170,8 +170,10 @@ std::vector<Jump> jumps_of(const Stroke& stroke) {
     speeds.push_back(distance / time);
   }
   if (steps.size() < least_steps) return {};
-  // One wrong sample makes two fast steps.
-  const auto others = speeds.end() - 3 - static_cast<std::ptrdiff_t>(speeds.size() / 100);
+  // One wrong sample makes two fast steps, which are many of few: then the usual step is compared.
+  const auto others = speeds.size() < few_steps
+                          ? speeds.begin() + static_cast<std::ptrdiff_t>((speeds.size() - 1) / 2)
+                          : speeds.end() - 3 - static_cast<std::ptrdiff_t>(speeds.size() / 100);
   std::nth_element(speeds.begin(), others, speeds.end());
   const double fastest = *others, extent = box_of(stroke).sizes().maxCoeff();
   std::erase_if(steps, [&](const Jump& step) {

@@ -30,7 +30,7 @@ struct Jump {
   std::size_t sample = 0;  ///< at its end
   double distance = 0.0;   ///< m
   double time = 0.0;       ///< s
-  double ratio = 0.0;      ///< to the speed of the fastest other steps
+  double ratio = 0.0;      ///< to the speed of the fastest other steps; of fewer than 20, to the usual one
 };
 /// All such steps, where the tool is not lifted.
 std::vector<Jump> jumps_of(const Stroke& stroke);

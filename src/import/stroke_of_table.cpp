@@ -279,7 +279,7 @@ class StrokeMaker {
     if (jumps.empty()) return;
     const Jump& first = jumps.front();
     made_.warnings.push_back(fmt::format(
-        "{}: the tip jumps by {:.4g} m in {:.4g} s, {:.0f} times as fast as in almost all other steps{}; "
+        "{}: the tip jumps by {:.4g} m in {:.4g} s, {:.0f} times as fast as in most other steps{}; "
         "correct the sample, or leave its cells empty: then the tool lifts",
         sample_location(name_, lines_, first.sample), first.distance, first.time, first.ratio,
         jumps.size() > 1 ? fmt::format(" ({} jumps in all)", jumps.size()) : ""));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sample_tables.h"
@@ -96,6 +97,22 @@ TEST(Redundancy, ATeleportIsFound) {
   stroke.contact.assign(stroke.size(), pen_down);
   stroke.contact[99] = stroke.contact[100] = pen_lifts;
   EXPECT_TRUE(jumps_of(stroke).empty()) << "the pen is lifted there";
+}
+
+TEST(Redundancy, ATeleportIsFoundInAShortStroke) {
+  for (int size = 5; size < 30; ++size)
+    for (int wrong = 0; wrong < size; ++wrong) {
+      Stroke stroke;
+      for (int i = 0; i < size; ++i) {
+        stroke.time.push_back(0.01 * i);
+        stroke.position.emplace_back(0.001 * i, 0.0005 * i * i, 0.0);
+      }
+      EXPECT_TRUE(jumps_of(stroke).empty()) << size;
+      stroke.position[static_cast<std::size_t>(wrong)] = Vector3d(-9.999, -9.999, 0.0);
+      const std::vector<Jump> jumps = jumps_of(stroke);
+      ASSERT_EQ(jumps.size(), wrong == 0 || wrong + 1 == size ? 1u : 2u) << wrong << " of " << size;
+      EXPECT_EQ(jumps[0].sample, static_cast<std::size_t>(std::max(wrong, 1)));
+    }
 }
 
 TEST(Redundancy, TheSentencesNameTheFileAndTheLine) {
