@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include "core/error.h"
 #include "core/input_file.h"
@@ -33,6 +34,7 @@ namespace fs = std::filesystem;
 struct KindNotRead {
   std::string_view begin, ending;
   const char *name, *way_out;
+  bool is_binary = false;  ///< the byte behind `begin` is no text, which a column's name would be
 };
 
 constexpr const char* as_csv = "save or export it as CSV";
@@ -47,9 +49,9 @@ constexpr KindNotRead kinds_not_read[] = {
     {"PK\x03\x04", "", "a zip archive", unpack},
     {"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", "", "an old Excel or Office file", as_csv},
     {"PAR1", "", "a Parquet file",
-     "save it as CSV: pandas.read_parquet('FILE').to_csv('samples.csv', index=False)"},
+     "save it as CSV: pandas.read_parquet('FILE').to_csv('samples.csv', index=False)", true},
     {"ARROW1", "", "a Feather file (Arrow)",
-     "save it as CSV: pandas.read_feather('FILE').to_csv('samples.csv', index=False)"},
+     "save it as CSV: pandas.read_feather('FILE').to_csv('samples.csv', index=False)", true},
     {"\x89HDF\r\n\x1A\n", "", "an HDF5 file without a stroke from sandstroke",
      "save its columns as CSV: pandas.DataFrame({'x': x, 'y': y}).to_csv('samples.csv', index=False)"},
     {"%PDF", "", "a PDF", "name the file with the samples themselves"},
@@ -88,10 +90,17 @@ std::string head_of(const fs::path& path) {
   return head;
 }
 
+bool begins_with(std::string_view head, const KindNotRead& kind) {
+  if (!head.starts_with(kind.begin)) return false;
+  const std::string_view next = head.substr(kind.begin.size(), 1);
+  return !kind.is_binary || (!next.empty() && std::iscntrl(static_cast<unsigned char>(next[0])) &&
+                             std::isspace(static_cast<unsigned char>(next[0])) == 0);
+}
+
 template <std::size_t N>
 void refuse(const KindNotRead (&kinds)[N], const fs::path& path, std::string_view head) {
   for (const KindNotRead& kind : kinds)
-    if (head.starts_with(kind.begin) && (kind.ending.empty() || has_ending(path, kind.ending)))
+    if (begins_with(head, kind) && (kind.ending.empty() || has_ending(path, kind.ending)))
       throw_input_error("{}: is {}, which sandstroke cannot read; {}", path.string(), kind.name,
                         kind.way_out);
 }
@@ -131,7 +140,9 @@ std::optional<SampleTable> read_format(const fs::path& path, const TableSettings
   if (head.starts_with(std::string_view("SQLite format 3\0", 16))) return read_ros2_bag(path, part);
   if (head.starts_with(mcap_magic)) return read_mcap(path, part);
   if (head.starts_with(ros1_bag_magic)) return read_ros1_bag(path, part);
-  if (head.starts_with("MATLAB ") || has_ending(path, ".mat")) return read_mat(path, part);
+  if (head.starts_with("MATLAB 5.0 MAT-file") || head.starts_with("MATLAB 7.3 MAT-file") ||
+      has_ending(path, ".mat"))
+    return read_mat(path, part);
   if (has_ending(path, ".npz")) return read_npz(path, part);
   if (!part.empty()) throw_input_error("{}: has no parts; leave out --part {}", path.string(), part);
   if (head.starts_with("\x93NUMPY")) return read_npy(path);
@@ -149,7 +160,9 @@ std::optional<SampleTable> read_format(const fs::path& path, const TableSettings
   if (has_ending(path, ".thr")) return read_thr(path);
   if (is_gcode(path, text)) return read_gcode(path, settings.pen_up, settings.pen_down);
   if (looks_like_hpgl(text) || has_ending(path, ".hpgl")) return read_hpgl(path);
-  if (!JsonRows::begin(text)) refuse_foreign_text(path, text);
+  const bool lines_are_chosen =
+      settings.skip_lines > 0 || !settings.skip.empty() || !settings.columns.empty();
+  if (!JsonRows::begin(text) && !lines_are_chosen) refuse_foreign_text(path, text);
   return {};
 }
 

@@ -76,6 +76,9 @@ TEST(Formats, OtherTextIsLeftToTables) {
   EXPECT_EQ(description("a.csv", "G1,G2\n1,2\n"), "text");
   EXPECT_EQ(description("a.csv", "[mm],[s]\n1,2\n"), "text");
   EXPECT_EQ(description("a.csv", std::string_view("\xFF\xFEx\0,\0y\0\n\0", 10)), "text");  // UTF-16
+  EXPECT_EQ(description("a.csv", "PAR1,PAR2\n1,2\n"), "text");
+  EXPECT_EQ(description("a.tsv", "ARROW1\tARROW2\n1\t2\n"), "text");
+  EXPECT_EQ(description("a.csv", "MATLAB export of trial 3\nx,y\n1,2\n"), "text");
   EXPECT_EQ(description("stroke.toml", "[[segment]]\nkind = 'line'\n"), "text");
   EXPECT_EQ(description("empty", ""), "text");
   EXPECT_FALSE(read_known_format("-"));
@@ -94,7 +97,8 @@ TEST(Formats, KindsThatAreNotReadAreNamedWithTheWayOut) {
       {"a.ods", "PK\x03\x04...", "a spreadsheet", "CSV"},
       {"a.zip", "PK\x03\x04...", "a zip archive", "unpack"},
       {"a.xls", "\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", "an old Excel", "CSV"},
-      {"a", "PAR1...", "a Parquet file", "to_csv"},
+      {"a", "PAR1\x15\x04...", "a Parquet file", "to_csv"},
+      {"a", std::string_view("ARROW1\0\0...", 11), "a Feather file", "to_csv"},
       {"a.npy", "\x93NUMPY\x01", "damaged or unknown header", "numpy.save"},
       {"a.npz", "PK\x03\x04...", "damaged or cut off zip", "save it again"},
       {"a.h5", "\x89HDF\r\n\x1A\n", "an HDF5 file", "CSV"},
