@@ -58,19 +58,43 @@ void refuse_json(const fs::path& path, std::string_view text) {
   if (by_lines)
     refuse_with_python(
         path, "JSON lines", as_table,
-        "import sys, pandas; pandas.read_json(sys.argv[1], lines=True).to_csv('samples.csv', index=False)");
+        "import json, sys, pandas; pandas.json_normalize([json.loads(l) for l in open(sys.argv[1]) if "
+        "l.strip()]).to_csv('samples.csv', index=False)");
   refuse_with_python(path, "JSON", as_table,
-                     "import sys, pandas; pandas.read_json(sys.argv[1]).to_csv('samples.csv', index=False)");
+                     "import json, sys, pandas; d = json.load(open(sys.argv[1])); (pandas.json_normalize(d) "
+                     "if isinstance(d, list) and isinstance(d[0], dict) else "
+                     "pandas.DataFrame(d)).to_csv('samples.csv', index=False)");
+}
+
+/// True for a line such as "0.5, 1, 2": not indented, with two numbers, and no pair of YAML.
+bool is_table_row(std::string_view line) {
+  if (line.starts_with(' ') || holds(line, ": ")) return false;
+  int numbers = 0;
+  while (!line.empty() && numbers < 2) {
+    const std::size_t end = std::min(line.find_first_of(",; \t\r"), line.size());
+    numbers += finite_number(line.substr(0, end)) ? 1 : 0;
+    line.remove_prefix(std::min(end + 1, line.size()));
+  }
+  return numbers == 2;
+}
+
+/// True for documents of YAML between lines of "---"; a table may stand below those of its metadata.
+bool holds_yaml_documents(std::string_view text) {
+  const std::string_view first = cut_line(text);
+  if (first != "---" && !(holds(first, ":") && is_yaml_pair(first))) return false;
+  bool documents = false, rows = false;
+  while (!text.empty()) {
+    const std::string_view line = cut_before(text, '\n');
+    const bool ends = without_blanks(line) == "---";
+    documents = documents || ends;
+    rows = !ends && (rows || is_table_row(line));
+  }
+  return documents && !rows;
 }
 
 void refuse_yaml(const fs::path& path, std::string_view text) {
   const std::string ending = small_ending(path);
-  std::string_view rest = text;
-  const std::string_view first = cut_line(rest);
-  const bool begins = first == "---" || (first.find(':') != std::string_view::npos && is_yaml_pair(first));
-  bool is_list = false;
-  while (begins && !rest.empty() && !is_list) is_list = cut_line(rest) == "---";
-  if (!is_list && ending != ".yaml" && ending != ".yml") return;
+  if (!holds_yaml_documents(text) && ending != ".yaml" && ending != ".yml") return;
   if (holds(text, "stamp:"))
     refuse_with_python(
         path, "YAML, as rostopic echo prints it", as_table,
@@ -79,8 +103,9 @@ void refuse_yaml(const fs::path& path, std::string_view text) {
         "'time', s.iloc[:, 0] * 10**9 + s.iloc[:, 1]); t.drop(columns=s.columns).to_csv('samples.csv', "
         "index=False)");
   refuse_with_python(path, "YAML", as_table,
-                     "import sys, yaml, pandas; pandas.json_normalize([m for m in "
-                     "yaml.safe_load_all(open(sys.argv[1])) if m]).to_csv('samples.csv', index=False)");
+                     "import sys, yaml, pandas; pandas.json_normalize([m for d in "
+                     "yaml.safe_load_all(open(sys.argv[1])) if d for m in (d if isinstance(d, list) else "
+                     "[d])]).to_csv('samples.csv', index=False)");
 }
 
 }  // namespace

@@ -26,9 +26,8 @@ std::string complaint_about(const std::filesystem::path& file) {
 constexpr const char* quick_draw =
     "{\"word\":\"line\",\"key_id\":\"1\",\"drawing\":[[[10,20,30],[10,10,15]],[[10,30],[40,40]]]}\n"
     "{\"word\":\"line\",\"key_id\":\"2\",\"drawing\":[[[1,2],[3,4]]]}\n";
-constexpr const char* json_lines =  // with lists of text, which are no columns
-    "{\"x\": 1, \"y\": 2, \"t\": 0, \"tags\": [[\"a\"]]}\n{\"x\": 3, \"y\": 4, \"t\": 0.01, \"tags\": "
-    "[[\"b\"]]}\n";
+constexpr const char* json_lines =  // with texts in a list: flat ones are a table
+    "{\"x\": 1, \"y\": 2, \"t\": 0, \"tags\": [\"a\"]}\n{\"x\": 3, \"y\": 4, \"t\": 0.01, \"tags\": []}\n";
 constexpr const char* json = "[{\"x\": 1, \"y\": 2, \"t\": 0},\n {\"x\": 3, \"y\": 4, \"t\": 0.01}]\n";
 constexpr const char* ros1_echo =
     "header: \n  seq: 1\n  stamp: \n    secs: 1573151162\n    nsecs: 990000000\n  frame_id: \"base\"\npose: "
@@ -79,9 +78,26 @@ TEST(ForeignText, IsNamedForWhatItIs) {
 TEST(ForeignText, TablesThatLookAlikeAreTables) {
   const TestFolder folder;
   for (const char* text : {"# date: 1\n---\n1 2\n", "x y\n--- ---\n1 2\n", "[mm] [s]\n1 2\n", "[[segment]]\n",
-                           "Recorded on: 2024\n---\nx,y\n1,2\n", "12:30:01,1,2\n---\n"}) {
+                           "Recorded on: 2024\n---\nx,y\n1,2\n", "12:30:01,1,2\n---\n",
+                           "---\nname: trial 3\nfields:\n- name: t\n- name: x\n---\nt,x\n0,1\n1,2\n",
+                           "subject: 4\n---\n0;1,5\n1;2,5\n",
+                           "subject: 4\n---\nt x\n2024-05-01T12:00:00 1 2\n2024-05-01T12:00:01 1 2\n"}) {
     put_text(folder / "a.txt", text);
     EXPECT_EQ(complaint_about(folder / "a.txt"), "") << text;
+  }
+}
+
+TEST(ForeignText, IsATableIfItsLinesAreChosen) {
+  const TestFolder folder;
+  put_text(folder / "a.csv", "subject: 4\n---\nx_m,y_m\n1,2\n3,4\n");
+  TableSettings settings;
+  settings.rate = 10.0;
+  settings.skip_lines = 2;
+  EXPECT_EQ(import_stroke(folder / "a.csv", settings).stroke.size(), 2u);
+  put_text(folder / "b.csv", "---\nsubject: 4\n---\nx_m,y_m\n");
+  for (const int skipped : {0, 3}) {
+    settings.skip_lines = skipped;
+    EXPECT_EQ(complaint_of([&] { read_known_format(folder / "b.csv", settings); }).empty(), skipped == 3);
   }
 }
 
@@ -103,7 +119,11 @@ class WayOut : public testing::Test {
 };
 
 TEST_F(WayOut, MakesATableThatIsRead) {
-  for (const char* text : {json_lines, json, ros1_echo, ros2_echo, plain_echo}) {
+  constexpr const char* nested =
+      "[{\"t\": 0, \"pos\": {\"x\": 1, \"y\": 2}},\n {\"t\": 0.01, \"pos\": {\"x\": 3, \"y\": 4}}]\n";
+  constexpr const char* columns = "{\"t\": [0, 0.01],\n \"x\": [1, 3],\n \"y\": [2, 4]}\n";
+  constexpr const char* list = "---\n- {x: 1, y: 2, time: 0}\n- {x: 3, y: 4, time: 0.01}\n---\n";
+  for (const char* text : {json_lines, json, nested, columns, ros1_echo, ros2_echo, plain_echo, list}) {
     const TestFolder folder;
     const auto file = folder / "it's \"a\" $file.txt";
     put_text(file, text);
