@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <utility>
 
 #include "core/error.h"
 #include "core/input_file.h"
@@ -174,6 +175,20 @@ std::optional<SampleTable> read_known_format(const fs::path& path, const TableSe
   if (table && names_pen && !is_gcode(path, head_of(path)))
     throw_input_error("{}: its format tells itself where the pen is up; leave out {}", path.string(),
                       option_and_key(settings.pen_up.empty() ? "pen_down" : "pen_up"));
+  if (table && !settings.columns.empty())
+    throw_input_error(
+        "{}: its format names the columns itself; leave out {}, and choose columns by their names or numbers "
+        "(stroke info shows them)",
+        path.string(), option_and_key("columns"));
+  for (const auto& [given, key] : std::initializer_list<std::pair<bool, const char*>>{
+           {settings.separator != Separator::found, "separator"},
+           {settings.decimal != DecimalMark::found, "decimal"},
+           {!settings.encoding.empty(), "encoding"},
+           {settings.skip_lines > 0, "skip_lines"},
+           {!settings.skip.empty(), "skip"}})
+    if (table && given)
+      throw_input_error("{}: is no table of text, to which alone {} belongs; leave it out", path.string(),
+                        option_and_key(key));
   return table;
 }
 

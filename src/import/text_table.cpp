@@ -114,6 +114,9 @@ class TextTable::Rows {
   bool begin_json(std::string_view line) {
     std::vector<std::string> names = JsonRows::names_in(line);
     if (names.empty()) return false;
+    if (!settings_.columns.empty())
+      throw_input_error("{}: lines of JSON name the columns themselves; leave out {}", name_,
+                        option_and_key("columns"));
     dialect_ = {Separator::comma, DecimalMark::point};  // of the numbers' texts
     set_columns(names, fmt::format("{}:{}", name_, line_));
     json_.emplace(std::move(names));

@@ -140,6 +140,33 @@ TEST(Formats, OnlyGcodeAndTablesHaveWordsForThePen) {
   EXPECT_THAT(complaint_of([&] { import_stroke(folder / "a.csv", settings); }), HasSubstr("pen_down"));
 }
 
+TEST(Formats, OnlyTablesOfTextHaveKeysForText) {
+  const TestFolder folder;
+  for (const auto& [name, content] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"a.thr", "0 0\n1 1\n"},
+           {"a.gcode", "G21\nG1 X1 Y1 F600\nX2\n"},
+           {"a.svg", "<svg><path d='M1 1h1'/></svg>"}}) {
+    const std::filesystem::path file = folder / name;
+    put_text(file, content);
+    for (const auto& [key, change] : std::initializer_list<std::pair<const char*, void (*)(TableSettings&)>>{
+             {"columns", [](TableSettings& s) { s.columns = "t,x,y,z"; }},
+             {"separator", [](TableSettings& s) { s.separator = Separator::tab; }},
+             {"decimal", [](TableSettings& s) { s.decimal = DecimalMark::comma; }},
+             {"encoding", [](TableSettings& s) { s.encoding = "latin1"; }},
+             {"skip_lines", [](TableSettings& s) { s.skip_lines = 1; }},
+             {"skip", [](TableSettings& s) { s.skip = "a"; }}}) {
+      TableSettings settings;
+      change(settings);
+      EXPECT_THAT(complaint_of([&] { read_known_format(file, settings); }),
+                  AllOf(HasSubstr(name), HasSubstr(std::string("stroke.table.") + key), HasSubstr("leave")));
+    }
+  }
+  TableSettings settings;
+  settings.columns = "a,b";
+  EXPECT_THAT(complaint_of([&] { import_stroke_text("{\"x\":1,\"y\":2}\n", "in", settings); }),
+              HasSubstr("lines of JSON name the columns themselves; leave out stroke.table.columns"));
+}
+
 TEST(Formats, AFolderOrNothingIsNoFile) {
   const TestFolder folder;
   for (const char* name : {".", "not there"}) {
