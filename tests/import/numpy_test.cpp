@@ -214,8 +214,7 @@ TEST(Npz, EntriesThatShareAMemberAreRefused) {
   ZipWriter zip(true);
   zip.add("a.npy", npy("'|O'", "125000,", std::string(1'000'000, '\0')));
   for (int i = 0; i < 400; ++i) zip.add_entry();
-  EXPECT_THAT(complaint_of([&] { table_of_archive(zip); }),
-              HasSubstr("more than it can hold; it is damaged"));
+  EXPECT_THAT(complaint_of([&] { table_of_archive(zip); }), HasSubstr("a.npy is damaged"));
 }
 
 TEST(Npz, APositionIsFoundByItsName) {
