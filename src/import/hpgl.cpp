@@ -25,6 +25,64 @@ constexpr double units_per_mm = 40.0;
 
 bool is_hpgl_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
+/// Skips the rest of ESC.( or ESC.I81;;17: or ESC%0B or ESC E.
+void skip_escape(std::string_view& rest) {
+  if (rest.starts_with('.')) {
+    rest.remove_prefix(std::min<std::size_t>(2, rest.size()));
+    const std::size_t end = rest.find_first_not_of("; 0123456789");
+    if (end != std::string_view::npos && rest[end] == ':') rest.remove_prefix(end + 1);
+    return;
+  }
+  while (!rest.empty() && !is_hpgl_letter(rest[0])) rest.remove_prefix(1);
+  rest.remove_prefix(std::min<std::size_t>(1, rest.size()));
+}
+
+/// The instructions of HPGL and HPGL/2, by which a plot is told from a table whose header begins with PU.
+constexpr std::string_view hpgl_codes =
+    "AA AC AD AF AH AP AR AS AT BL BP BR BZ CA CF CI CM CO CP CR CS CT DC DF DI DL DP DR DS DT DV EA EC EP "
+    "ER "
+    "ES EW FI FN FP FR FS FT GC GM IM IN IP IR IV IW KY LA LB LM LO LT MC MG MT NP NR OA OC OD OE OF OG OH "
+    "OI "
+    "OK OL OO OP OS OT OW PA PB PC PD PE PG PM PP PR PS PT PU PW QL RA RF RO RP RQ RR RT SA SB SC SD SI SL "
+    "SM "
+    "SO SP SR SS ST SV TD TL TR UC UF UL VA VN VS WD WG WU";
+
+bool is_hpgl_code(std::string_view code) {
+  for (std::size_t at = 0; at < hpgl_codes.size(); at += 3)
+    if (hpgl_codes.substr(at, 2) == code) return true;
+  return false;
+}
+
+/// True if the first line is instructions with their numbers. An instruction without numbers ends at ;, at
+/// the next one, or at the line's end, if no row of numbers follows.
+bool begins_with_instructions(std::string_view text) {
+  constexpr std::string_view digits = "0123456789", between = " \t\r;";
+  const std::string_view line = cut_before(text, '\n');
+  bool has_numbers = true;
+  for (std::string_view rest = line;;) {
+    rest.remove_prefix(std::min(rest.find_first_not_of(between), rest.size()));
+    if (rest.size() < 2) break;
+    if (rest[0] == '\x1B') {
+      rest.remove_prefix(1);
+      skip_escape(rest);
+      continue;
+    }
+    const std::string_view code = rest.substr(0, 2);
+    if (!is_hpgl_code(code)) return false;
+    for (const char* with_text : {"LB", "DT", "PE", "CO", "BP"})
+      if (code == with_text) return true;
+    rest.remove_prefix(2);
+    const std::string_view numbers = rest.substr(0, rest.find_first_not_of(" \t\r,.+-0123456789"));
+    rest.remove_prefix(numbers.size());
+    has_numbers = numbers.find_first_of(digits) != std::string_view::npos;
+    const bool ends = numbers.empty() || rest.empty() || rest[0] == ';';
+    if (!has_numbers && (!ends || numbers.find(',') != std::string_view::npos)) return false;
+    if (has_numbers && numbers.find(',') < numbers.find_first_of(digits)) return false;
+  }
+  const std::string_view next = cut_line(text);
+  return has_numbers || next.empty() || digits.find(next[0]) == std::string_view::npos;
+}
+
 class HpglReader {
  public:
   HpglReader(std::string_view text, const std::string& name)
@@ -57,26 +115,18 @@ class HpglReader {
     throw_input_error("{}:{}: {}", name_, line, what);
   }
 
-  /// Skips what is between instructions. False at the end.
+  /// Skips what is between instructions, with the quoted texts of CO and BP. False at the end.
   bool skip_to_instruction() {
     while (!rest_.empty() && !is_hpgl_letter(rest_[0])) {
-      const bool escapes = rest_[0] == '\x1B';
+      const char skipped = rest_[0];
+      begin_ = rest_.data() - whole_.data();
       rest_.remove_prefix(1);
-      if (escapes) skip_escape();
+      if (skipped == '\x1B') skip_escape(rest_);
+      if (skipped != '"') continue;
+      if (rest_.find('"') == std::string_view::npos) complain("a quoted text has no end; close it with \"");
+      cut_before(rest_, '"');
     }
     return !rest_.empty();
-  }
-
-  /// The rest of ESC.( or ESC.I81;;17: or ESC%0B or ESC E.
-  void skip_escape() {
-    if (rest_.starts_with('.')) {
-      rest_.remove_prefix(std::min<std::size_t>(2, rest_.size()));
-      if (!rest_.empty() && std::string_view(";0123456789").find(rest_[0]) != std::string_view::npos)
-        cut_before(rest_, ':');
-      return;
-    }
-    while (!rest_.empty() && !is_hpgl_letter(rest_[0])) rest_.remove_prefix(1);
-    rest_.remove_prefix(std::min<std::size_t>(1, rest_.size()));
   }
 
   std::vector<double> numbers() {
@@ -204,7 +254,7 @@ bool looks_like_hpgl(std::string_view text) {
   bool begins = false;
   for (const char* begin : {"\x1B.", "\x1B%", "IN;", "DF;", "SP", "PU", "PA", "PD", "BP"})
     begins = begins || text.starts_with(begin);
-  if (!begins) return false;
+  if (!begins || !begins_with_instructions(text)) return false;
   for (std::size_t at = text.find('P'); at != std::string_view::npos; at = text.find('P', at + 1)) {
     const std::string_view rest = text.substr(at);
     if ((rest.starts_with("PD") || rest.starts_with("PU")) && rest.size() > 2 &&

@@ -56,6 +56,15 @@ TEST(Hpgl, LabelsAndAreasAreSaidNotToBeDrawn) {
   EXPECT_EQ(path_length(plot("PU0,0;LBPD900,900;\x03PD400,0;")), 10.0);
 }
 
+TEST(Hpgl, QuotedTextsHoldNoInstructions) {
+  for (const char* text : {"IN;CO \"PROFILE 2; PD9,9;\";PU0,0;PD400,0;",
+                           "BP1,\"PD9,9 Border\";PU0,0;PD400,0;", "IN;CO\"PU\"\"PE\";PU0,0PD400,0;"}) {
+    EXPECT_THAT(column(plot(text), "x").values, ElementsAre(0, 10)) << text;
+    EXPECT_TRUE(looks_like_hpgl(text)) << text;
+  }
+  EXPECT_THAT(plot_complaint("IN;\nCO \"PU;PD400,0;"), HasSubstr("plot.plt:2: a quoted text has no end"));
+}
+
 TEST(Hpgl, SaysWhatIsWrong) {
   EXPECT_THAT(plot_complaint("IN;\nSC0,100,0,100;PD5,5;"),
               AllOf(HasSubstr("plot.plt:2: SC scales"), HasSubstr("1/40 mm")));
@@ -70,9 +79,14 @@ TEST(Hpgl, SaysWhatIsWrong) {
 }
 
 TEST(Hpgl, IsKnownByItsInstructions) {
-  for (const char* text : {"IN;SP1;PU0,0;", "\x1B.(;IN;PD5,5", "PU;PA5,5", "SP1;PD0,0"})
+  for (const char* text :
+       {"IN;SP1;PU0,0;", "\x1B.(;IN;PD5,5", "PU;PA5,5", "SP1;PD0,0", "IN;\nSP1;\nPU5,5;",
+        "PU 400 800 PD 800 800", "PU-4,8PD+8,.5\nPD1,2", "\x1B.I81;;17:SP1PU0,0", "PD0,0,\n5,5;"})
     EXPECT_TRUE(looks_like_hpgl(text)) << text;
-  for (const char* text : {"IN;OUT\n1;2\n", "x,y\n1,2\n", "SPEED x\n1 2\n", ""})
+  for (const char* text : {"IN;OUT\n1;2\n", "x,y\n1,2\n", "SPEED x\n1 2\n", "",
+                           "PATIENT,t_s,x_mm,y_mm\nPD01,0,1,2\nPD01,1,2,2\n", "PD;x_mm;y_mm;t_s\n1;2;3;4\n",
+                           "PU x_mm y_mm\n1 2 3\n", "PU;PA;PD;\n1;2;3;\n", "PU PA PD\n0 1 2\n",
+                           "PU,PA,PD\n1,2,3\n", "SPOT\tPD0\n1\t2\n"})
     EXPECT_FALSE(looks_like_hpgl(text)) << text;
 }
 
