@@ -193,14 +193,20 @@ class GcodeReader {
   /// Adds the end of a move of that length. The first move, and the first one from home, come from a place
   /// that is not known: the path begins, or goes on, where they end.
   void add(const Vector3d& point, double length) {
-    constexpr double least = 1e-6;  // mm; a shorter move takes no time that shows in a sample
     const bool begins = path_.samples.empty() || goes_home_;
-    if (begins && relative_ && motion_ < 2 && length > 0.0) keep(position_, 0.0);
-    if (goes_home_) length = (point - path_.samples.back().position).norm();
-    if (!path_.samples.empty() && length < least)
-      goes_home_ = false;
-    else
-      keep(point, path_.samples.empty() ? 0.0 : length);
+    if (begins && relative_ && motion_ < 2 && length > 0.0) place(position_, 0.0);
+    place(point, length);
+  }
+
+  /// Keeps a point, unless the tool is there already: then it only tells the height.
+  void place(const Vector3d& point, double length) {
+    constexpr double least = 1e-6;  // mm; a shorter move takes no time that shows in a sample
+    if (path_.samples.empty()) return keep(point, 0.0);
+    GcodeSample& last = path_.samples.back();
+    if (goes_home_) length = (point - last.position).norm();
+    if (length >= least) return keep(point, length);
+    last.height_known = last.height_known || height_known_;
+    goes_home_ = false;
   }
 
   void keep(const Vector3d& point, double length) {
@@ -209,7 +215,8 @@ class GcodeReader {
     if (!path_.samples.empty()) {
       GcodeSample& last = path_.samples.back();
       along_xy = !goes_home_ && point.head<2>() != last.position.head<2>();
-      along_z = !goes_home_ && point.z() != last.position.z();
+      along_z = !goes_home_ && point.z() != last.position.z() &&
+                (last.height_known || !along_xy);  // no slope is known
       last.lifts = !down;
       last.down = last.down || down;
     }

@@ -2,6 +2,8 @@
 #include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "gcode_tables.h"
 
 namespace sandstroke {
@@ -145,6 +147,29 @@ TEST(GcodeCodes, AHeightFromHomeIsNotKnown) {
     EXPECT_THAT(table.lifts, ElementsAre(false, true, false, false)) << down;
     EXPECT_THAT(gcode_values(table, "z"), testing::Each(down));
   }
+}
+
+/// Home counts as 0, but a Z0 behind it is a move down all the same.
+TEST(GcodeCodes, AZOf0BehindHomeLowersThePen) {
+  for (const char* home : {"G53 G0 Z0", "G28 Z", "G91 G28 Z0\nG90"}) {
+    const SampleTable table = gcode_table(
+        fmt::format("G21 G90\nG0 Z5\nG1 X10 Y10 F600\nG1 Z0\nG1 X20 Y10\n{}\nG0 X30 Y10\nG1 Z0\nG1 X40 "
+                    "Y10\nG0 Z5\n",
+                    home));
+    EXPECT_THAT(gcode_values(table, "x"), ElementsAre(10, 20, 30, 40)) << home;
+    EXPECT_THAT(table.lifts, ElementsAre(false, true, false, true)) << home;
+    const std::vector<double> time = gcode_values(table, "time");
+    EXPECT_THAT(std::set<double>(time.begin(), time.end()), testing::SizeIs(4)) << home;
+  }
+}
+
+TEST(GcodeCodes, RelativeMovesFromHomeTakeTime) {
+  const SampleTable table = gcode_table("G1 X1 Y1 F60\nX5\nG28\nG91\nG1 X5\nG1 X5\n");
+  EXPECT_THAT(gcode_values(table, "x"), ElementsAre(1, 5, 0, 5, 10));
+  const std::vector<double> time = gcode_values(table, "time");
+  EXPECT_GT(time[2], time[1]);
+  EXPECT_EQ(gcode_values(gcode_table("G1 X3 Y0 F60\nX0\nG28\nG91\nG1 X5\n"), "time").size(), 3u)
+      << "home is where the path ended";
 }
 
 TEST(GcodeCodes, APreambleOfACamProgram) {
