@@ -138,7 +138,8 @@ class GcodeReader {
   void take_speed(const GcodeWords& words) {
     for (const int code : words.g)
       if (code == 200 || code == 210) take_g(code, words);  // applies to its whole line
-    if (const auto& feed = words['F']) {
+    const bool waits = words.has_g(40);                     // F is then a time
+    if (const auto& feed = words['F']; feed && !waits) {
       if (!(*feed > 0.0)) throw_input_error("{}: speed F{} is not above 0; correct it", location(), *feed);
       feed_ = *feed * scale_ / 60.0;
     }

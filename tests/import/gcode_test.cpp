@@ -121,6 +121,11 @@ TEST(Gcode, FeedGivesTheTime) {
   EXPECT_THAT(gcode_values(inch, "x"), ElementsAre(0, 25.4));
 }
 
+TEST(Gcode, TheFOfADwellIsATime) {
+  EXPECT_THAT(gcode_values(gcode_table("G1 X0 Y0 F60\nX1\nG4 F2\nG04 F0\nX2\n"), "time"),
+              ElementsAre(0, 1, 2));
+}
+
 TEST(Gcode, MovesThatAreNoneAreLeftOut) {
   const SampleTable table = gcode_table("G1 F60 X1 Y1\nX1\nX1 Y1\nX2\n");
   EXPECT_THAT(gcode_values(table, "time"), ElementsAre(0, 1));
