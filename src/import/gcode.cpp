@@ -68,7 +68,7 @@ class GcodeReader {
 
   /// True if the line's other words still belong to a motion.
   bool take_g(int code, const GcodeWords& words) {
-    switch (role_of_g(code, words, location())) {
+    switch (role_of_g(code, words, !path_.samples.empty(), location())) {
       case GcodeRole::read:
         return read_g(code, words);
       case GcodeRole::keeps_path:

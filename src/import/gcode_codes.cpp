@@ -1,5 +1,7 @@
 #include "import/gcode_codes.h"
 
+#include <string_view>
+
 #include "core/error.h"
 
 namespace sandstroke {
@@ -9,18 +11,21 @@ struct GcodeRow {
   int first, last;  // numbers times 10
   GcodeRole role;
   const char* why_not = nullptr;  // it is refused with coordinates other than 0; null: it may have any
+  std::string_view letters = "";  // with these it is refused, whatever they say
+  std::string_view within = "";   // so it is with these once a path has begun
 };
 
 constexpr const char* other_curve = "is a curve of another kind than G2 and G3";
 constexpr const char* changes_offsets = "changes the offsets of coordinates";
+constexpr const char* cuts_thread = "cuts a thread";
 
 constexpr GcodeRow roles[] = {
     {0, 30, GcodeRole::read},  // motion
     {40, 40, GcodeRole::waits},
-    {50, 50, GcodeRole::waits, other_curve},  // without coordinates: high precision
-    {51, 51, GcodeRole::waits, other_curve},
-    {80, 90, GcodeRole::keeps_path},                // looking ahead; exact stop
-    {100, 100, GcodeRole::waits, changes_offsets},  // without coordinates: retracts the filament
+    {50, 50, GcodeRole::waits, other_curve, "XYZIJQ"},  // without coordinates: high precision
+    {51, 51, GcodeRole::waits, other_curve, "IJ"},
+    {80, 90, GcodeRole::keeps_path},                           // looking ahead; exact stop
+    {100, 100, GcodeRole::waits, changes_offsets, "", "XYZ"},  // without coordinates: retracts the filament
     {110, 110, GcodeRole::waits},
     {150, 150, GcodeRole::keeps_path},  // polar coordinates off
     {170, 190, GcodeRole::read},        // plane
@@ -29,13 +34,14 @@ constexpr GcodeRow roles[] = {
     {280, 300, GcodeRole::goes_home},   // and G29: probes the bed
     {281, 281, GcodeRole::waits},       // stores home
     {301, 301, GcodeRole::waits},
-    {320, 340, GcodeRole::goes_home},   // printers probe their bed
-    {400, 400, GcodeRole::keeps_path},  // no compensation of the tool's radius
-    {430, 440, GcodeRole::keeps_path},  // length of the tool
+    {320, 340, GcodeRole::goes_home, cuts_thread, "XYZK"},  // without coordinates, printers probe their bed
+    {400, 400, GcodeRole::keeps_path},                      // no compensation of the tool's radius
+    {430, 440, GcodeRole::keeps_path},                      // length of the tool
     {431, 431, GcodeRole::keeps_path},
     {490, 490, GcodeRole::keeps_path},
-    {500, 500, GcodeRole::waits, "scales, or changes the offsets of coordinates"},  // without: scaling off
-    {501, 501, GcodeRole::keeps_path},                                              // mirrors off
+    {500, 500, GcodeRole::waits, "scales, or changes the offsets of coordinates", "",
+     "XYZ"},                            // without: scaling off
+    {501, 501, GcodeRole::keeps_path},  // mirrors off
     {520, 520, GcodeRole::waits, changes_offsets},
     {530, 530, GcodeRole::goes_home},  // coordinates of the machine
     {540, 590, GcodeRole::read},       // coordinates of the workpiece
@@ -90,11 +96,13 @@ bool has_coordinates(const GcodeWords& words) {
 
 }  // namespace
 
-GcodeRole role_of_g(int code, const GcodeWords& words, const std::string& location) {
+GcodeRole role_of_g(int code, const GcodeWords& words, bool path_has_begun, const std::string& location) {
   std::string why;
   for (const GcodeRow& row : roles) {
     if (!row_holds(row, code)) continue;
-    if (!row.why_not || !has_coordinates(words)) return row.role;
+    if (!row.why_not || !(has_coordinates(words) || words.has_any_of(row.letters) ||
+                          (path_has_begun && words.has_any_of(row.within))))
+      return row.role;
     why = row.why_not;
   }
   for (const GcodeRefusal& refusal : refusals)

@@ -16,7 +16,7 @@ enum class GcodeRole {
 };
 
 /// The role of a G word (its number times 10) in its line. Error: input, if it would change the path in a way
-/// that is not read; `location` is the file and line.
-GcodeRole role_of_g(int code, const GcodeWords& words, const std::string& location);
+/// that is not read, for some words only once a path has begun; `location` is the file and line.
+GcodeRole role_of_g(int code, const GcodeWords& words, bool path_has_begun, const std::string& location);
 
 }  // namespace sandstroke
