@@ -49,12 +49,13 @@ class GcodeReader {
   }
 
   SampleTable table() {
-    pen_.check_known(name_, std::any_of(path_.samples.begin(), path_.samples.end(),
-                                        [](const GcodeSample& sample) { return sample.along_z; }));
+    const bool z_moves = std::any_of(path_.samples.begin(), path_.samples.end(),
+                                     [](const GcodeSample& sample) { return sample.along_z; });
+    pen_.check_known(name_, z_moves);
     path_.pen_word = pen_.word();
     path_.pen_is_named = pen_.is_named();
     SampleTable table = table_of_gcode(path_, name_);
-    for (const auto& warnings : {pen_.warnings(name_), program_.warnings()})
+    for (const auto& warnings : {pen_.warnings(name_, z_moves), program_.warnings()})
       table.warnings.insert(table.warnings.end(), warnings.begin(), warnings.end());
     Eigen::AlignedBox3d all;
     for (const GcodeSample& sample : path_.samples) all.extend(sample.position);

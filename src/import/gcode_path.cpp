@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "import/gcode_pen.h"
+#include "import/table_layout.h"
 
 namespace sandstroke {
 namespace {
@@ -57,7 +58,8 @@ std::string description_of(const GcodePath& path, std::size_t points, bool by_z,
   else if (!path.pen_word.empty())
     text += fmt::format(", the pen is down after {}", path.pen_word);
   if (path.pen_word.empty() && path.moves_rapidly && !by_z)
-    text += ", G0 draws too, because nothing lifts the pen";
+    text += fmt::format(", G0 draws too, because nothing lifts the pen (set {} to G0 if it lifts)",
+                        option_and_key("pen_up"));
   else if (path.draws_rapidly && !by_z)
     text += ", G0 draws too where the pen is down";
   std::vector<std::string> passed;
@@ -102,11 +104,12 @@ SampleTable table_of_gcode(const GcodePath& path, const std::string& name) {
                             (i + 1 < down.size() && !down[i + 1]));
   }
   if (table.size() == 0)
-    throw_input_error(
-        "{}: the pen is never down; {}", name,
-        path.pen_is_named
-            ? fmt::format("pen_up = \"{}\" lifts it all the time; name the other position", path.pen_word)
-            : "lower it with M3 (S above 0) or Z before a G1 move");
+    throw_input_error("{}: the pen is never down; {}", name,
+                      path.pen_is_named
+                          ? fmt::format("pen_up = \"{}\" lifts it all the time; name the other position, or "
+                                        "the word that lowers it in {}",
+                                        path.pen_word, option_and_key("pen_down"))
+                          : "lower it with M3 (S above 0) or Z before a G1 move");
   table.description = description_of(path, table.size(), by_z, has_z);
   return table;
 }

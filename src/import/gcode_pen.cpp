@@ -49,13 +49,21 @@ GcodePen::GcodePen(const std::string& pen_up, const std::string& pen_down)
 
 bool GcodePen::concerns(const GcodePenWord& word, const GcodeWords& words) const {
   if (word.m < 0) return false;
-  if (word.of_spindle()) return has_spindle_word(words) || (words['S'] && spindle_ > 0);
-  return has_m(words, word.m);
+  if (word.of_spindle()) return has_spindle_word(words) || words['S'];
+  for (const char letter : {'P', 'E'}) {
+    const auto &named = GcodeWords::of(word.values, letter), &own = GcodeWords::of(words.own, letter);
+    if (named && own && named != own) return false;  // another pin or servo
+  }
+  return std::any_of(words.m.begin(), words.m.end(),
+                     [&](int m) { return gcode_output_of(m) == gcode_output_of(word.m); });
 }
 
 bool GcodePen::matches(const GcodePenWord& word, const GcodeWords& words) const {
   const std::optional<double>& power = GcodeWords::of(word.values, 'S');
-  if (word.of_spindle()) return spindle_ == word.m && (!power || power_ == power);
+  if (word.of_spindle())  // a servo may be moved by S alone
+    return (spindle_ == word.m || (spindle_ < 0 && power)) && (!power || power_ == power);
+  if (switches_fan_off({word.m}, word.values)) return switches_fan_off(words.m, words.own);
+  if (!has_m(words, word.m)) return false;
   for (std::size_t i = 0; i < word.values.size(); ++i)
     if (word.values[i] && words.own[i] != word.values[i] && words.value[i] != word.values[i]) return false;
   return true;
@@ -64,6 +72,7 @@ bool GcodePen::matches(const GcodePenWord& word, const GcodeWords& words) const 
 void GcodePen::take(const GcodeWords& words, std::size_t line) {
   take_spindle(words, line);
   take_servo(words, line);
+  outputs_.take(words, line);
   const bool lifts = concerns(up_, words) && matches(up_, words);
   const bool lowers = concerns(down_, words) && matches(down_, words);
   has_up_ = has_up_ || lifts || (up_.rapid && words.has_g(0));
@@ -88,9 +97,10 @@ void GcodePen::take_spindle(const GcodeWords& words, std::size_t line) {
     first_spindle_ = spindle_;
     spindle_line_ = line;
   }
-  const bool waits = words.has_g(40) || words.has_g(960) || words.has_g(500);  // S has another meaning
-  if (!words['S'] || waits) return;
+  const bool waits = words.has_g(40) || has_m(words, 0) || has_m(words, 10);
+  if (!words['S'] || waits || words.has_g(960) || words.has_g(500)) return;  // S has another meaning
   power_ = words['S'];
+  if (spindle_ < 0) outputs_.take_power(*power_, line);
   if (!switches && words.has_any_of("XYZ")) power_in_moves_ = true;
 }
 
@@ -108,6 +118,7 @@ void GcodePen::take_servo(const GcodeWords& words, std::size_t line) {
 }
 
 void GcodePen::note_move(int motion) {
+  outputs_.note_move();
   if (!has_spindle_) return;
   if (spindle_ == 50 || power_ == 0.0)
     off_in_moves_ = true;
@@ -126,11 +137,17 @@ std::string GcodePen::word() const {
   return has_spindle_ ? gcode_spindle : "";
 }
 
-std::vector<std::string> GcodePen::warnings(const std::string& name) const {
+std::vector<std::string> GcodePen::warnings(const std::string& name, bool z_moves) const {
   std::vector<std::string> sentences;
   if (up_.given() && !has_up_)
     sentences.push_back(fmt::format("{}: no line has {}, so the pen never lifts; correct {}", name, up_.text,
                                     option_and_key("pen_up")));
+  if (is_named() || has_spindle_ || z_moves) return sentences;
+  for (const GcodeOutputs::Question& question : outputs_.questions())
+    if (question.is_coolant)
+      sentences.push_back(fmt::format(
+          "{}:{}: {} change between moves, and all of these draw; if one lifts the pen, set {} to it", name,
+          question.line, fmt::join(question.states, " and "), option_and_key("pen_up")));
   return sentences;
 }
 
@@ -145,6 +162,7 @@ void GcodePen::check_known(const std::string& name, bool z_moves) const {
         "lifts, such as \"{}\"",
         name, servo_line_, gcode_word_text('M', servo_), fmt::join(servo_angles_, " and "),
         option_and_key("pen_up"), m_and_s(servo_, *servo_angles_.rbegin()));
+  if (!z_moves && !has_spindle_ && servo_angles_.empty()) ask_about_outputs(name);
   constexpr std::size_t most = 4;  // a servo has few positions; more are a laser's shades
   if (z_moves || power_in_moves_ || off_in_moves_ || drawn_powers_.size() < 2 || drawn_powers_.size() > most)
     return;
@@ -153,6 +171,16 @@ void GcodePen::check_known(const std::string& name, bool z_moves) const {
       "pen; set {} to the one that lifts, such as \"{}\", or to \"M5\" if all of them draw",
       name, spindle_line_, fmt::join(drawn_powers_, " and "), gcode_word_text('M', first_spindle_),
       option_and_key("pen_up"), m_and_s(first_spindle_, *drawn_powers_.begin()));
+}
+
+void GcodePen::ask_about_outputs(const std::string& name) const {
+  for (const GcodeOutputs::Question& question : outputs_.questions())
+    if (!question.is_coolant)
+      throw_input_error(
+          "{}:{}: moves are made after {}, so it is not known which of them lifts the pen; set {} to the one "
+          "that lifts, such as \"{}\", or to \"M5\" if all of them draw",
+          name, question.line, fmt::join(question.states, " and after "), option_and_key("pen_up"),
+          question.states.front());
 }
 
 }  // namespace sandstroke

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "import/gcode_outputs.h"
 #include "import/gcode_words.h"
 
 namespace sandstroke {
@@ -25,8 +26,8 @@ inline constexpr const char* gcode_spindle = "M3";
 
 /// The pen's state by a program's words. If it has M3 or M4, the pen is down after these, and up after M5, at
 /// S0 and in G0. A word that the user names takes their place: the pen is then up after pen_up, and down
-/// after the same M word with other numbers, or after pen_down. G0 draws then where the pen is down, unless
-/// pen_up is "G0". M3, M4, M5 and S stay in force: an S alone moves the pen of "M3 S30".
+/// after another word of the same output (M106 S255, M107), or after pen_down. G0 draws then where the pen is
+/// down, unless pen_up is "G0". M3, M4, M5 and S stay in force: an S alone moves the pen of "M3 S30".
 class GcodePen {
  public:
   /// Error: input, if a word is not one of those.
@@ -40,17 +41,20 @@ class GcodePen {
   /// The word that moves the pen, for messages; empty: none does.
   std::string word() const;
   bool is_named() const { return up_.given() || down_.given(); }
-  /// Warnings on words that never occurred; `name` is the file's.
-  std::vector<std::string> warnings(const std::string& name) const;
-  /// Error: input, if only the user can know which position lifts the pen. z_moves: Z may lift it.
+  /// Warnings on words that never occurred, and on coolant that may be a pen; `name` is the file's. z_moves:
+  /// Z may lift it.
+  std::vector<std::string> warnings(const std::string& name, bool z_moves) const;
+  /// Error: input, if only the user can know which position lifts the pen.
   void check_known(const std::string& name, bool z_moves) const;
 
  private:
-  /// True if the line has the word's M word; for a spindle, also if it changes S.
+  /// True if the line switches the word's output; for a spindle, also if it changes S.
   bool concerns(const GcodePenWord& word, const GcodeWords& words) const;
   bool matches(const GcodePenWord& word, const GcodeWords& words) const;
   void take_spindle(const GcodeWords& words, std::size_t line);
   void take_servo(const GcodeWords& words, std::size_t line);
+
+  void ask_about_outputs(const std::string& name) const;
 
   GcodePenWord up_, down_;
   bool is_down_ = false, has_up_ = false, has_down_ = false;  // of words that are named
@@ -60,6 +64,7 @@ class GcodePen {
   int first_spindle_ = 30, servo_ = 0;  // the M words that may move a pen, and where they begin
   std::size_t spindle_line_ = 0, servo_line_ = 0;
   std::set<double> drawn_powers_, servo_angles_;
+  GcodeOutputs outputs_;
 };
 
 }  // namespace sandstroke

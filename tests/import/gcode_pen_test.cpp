@@ -37,6 +37,17 @@ TEST(GcodePen, AServoOfAnyWordIsLiftedByTheOneThatIsNamed) {
       {"M42 P4 S0", "M42 P4 S255", "m42 s0", ""},
       {"M400\nM300 S50", "M300 S30", "M300 S50", ""},
       {"S30 M3", "S90 M3", "M3 S30", ""},
+      {"S30", "S90", "M3 S30", ""},
+      {"S30", "S90", "", "M3 S90"},
+      {"M107", "M106 S255", "M107", ""},
+      {"M106 S0", "M106 S255", "M106 S0", ""},
+      {"M106 S0\nM107", "M106 S255", "M106 S0", ""},
+      {"M106 S0\nM107", "M106 S255", "M107", ""},
+      {"M42 P4 S0\nM42 P5 S1", "M42 P4 S255\nM42 P5 S0", "M42 P4 S0", ""},
+      {"M65 P0", "M64 P0", "M65 P0", ""},
+      {"M10", "M11", "M10", ""},
+      {"M9", "M8", "M9", ""},
+      {"M101", "M103", "M101", ""},
   };
   for (const auto& pen : pens) {
     const SampleTable table =
@@ -61,6 +72,51 @@ TEST(GcodePen, AsksWhichOfTwoPositionsLifts) {
     EXPECT_EQ(drawn(path, lifts).size(), 4u);
     EXPECT_EQ(path_length(drawn(path, "M5")), 90.0);
   }
+}
+
+TEST(GcodePen, AsksWhichStateOfAnOutputLifts) {
+  const struct {
+    const char *up, *down;
+  } outputs[] = {{"M107", "M106 S255"},
+                 {"M106 S0", "M106 S255"},
+                 {"M42 P4 S0", "M42 P4 S255"},
+                 {"M65 P0", "M64 P0"},
+                 {"M340 P0 S1500", "M340 P0 S2000"},
+                 {"M10", "M11"},
+                 {"M67 E0 Q0", "M67 E0 Q5"},
+                 {"M63 P1", "M62 P1"}};
+  for (const auto& [up, down] : outputs) {
+    const std::string path = fmt::format(fmt::runtime(servo), up, down);
+    EXPECT_THAT(gcode_complaint(path),
+                AllOf(HasSubstr("path.gcode:3: "), HasSubstr(up), HasSubstr(down), HasSubstr("--pen-up"),
+                      HasSubstr(fmt::format("such as \"{}\"", up))));
+    EXPECT_EQ(drawn(path, up).size(), 4u) << up;
+    EXPECT_EQ(path_length(drawn(path, "M5")), 90.0) << up;
+  }
+  EXPECT_THAT(gcode_complaint(fmt::format(fmt::runtime(servo), "S30", "S90")),
+              AllOf(HasSubstr("after M3 S30 and after M3 S90"), HasSubstr("\"M3 S30\"")));
+}
+
+TEST(GcodePen, OutputsThatSurelyLiftNothingAreNotAskedFor) {
+  const char* known[] = {
+      "M106 S255\nG1 X1 Y0\nX2\nX3\nM107\n",
+      "M106 S50\nG1 X1 Y0 E1\nX2 E2\nM106 S255\nX3 E3\nM107\nX4 E4\n",   // a print's fan
+      "M107\nG0 Z5\nG0 X0 Y0\nG1 Z-1\nX1\nM106\nX2\nM107\nX3\nG0 Z5\n",  // Z lifts
+      "M107\nM3\nG1 X0 Y0\nX1\nM5\nM106\nG0 X2\nM107\nM3\nX3\n",
+      "M204 S500\nG1 X1 Y0\nX2\nM204 S900\nX3\nM220 S50\nX4\nM220 S90\nX5\n",
+      "G1 X1 Y0\nX2\nG4 S1\nX3\nG4 S2\nX4\n",
+      "M8\nG1 X1 Y0\nX2\nM9\nX3\n",
+  };
+  for (const char* path : known) {
+    EXPECT_EQ(gcode_complaint(path), "") << path;
+    EXPECT_THAT(gcode_table(path).warnings, ElementsAre()) << path;
+  }
+}
+
+TEST(GcodePen, CoolantThatAlternatesIsSaidToDraw) {
+  const SampleTable table = gcode_table(fmt::format(fmt::runtime(servo), "M9", "M8"));
+  EXPECT_THAT(table.warnings, ElementsAre(AllOf(HasSubstr("M9 and M8"), HasSubstr("--pen-up"))));
+  EXPECT_EQ(path_length(table), 90.0);
 }
 
 TEST(GcodePen, AsksNothingWhereThePathTells) {
@@ -101,7 +157,8 @@ TEST(GcodePen, SaysWhatIsWrong) {
   EXPECT_THAT(complaint("M3 S30", "M3 S30"), HasSubstr("are the same word"));
   EXPECT_THAT(complaint("", "G0"), HasSubstr("G0 never draws"));
   EXPECT_THAT(complaint("", "M106"), HasSubstr("no line has M106, so the pen is never down"));
-  EXPECT_THAT(complaint("M3", ""), HasSubstr("pen_up = \"M3\" lifts it all the time"));
+  EXPECT_THAT(complaint("M3", ""),
+              AllOf(HasSubstr("pen_up = \"M3\" lifts it all the time"), HasSubstr("--pen-down")));
   EXPECT_THAT(drawn(path, "M3 S45").warnings,
               ElementsAre(HasSubstr("no line has M3 S45, so the pen never lifts")));
 }

@@ -221,7 +221,7 @@ TEST(Gcode, OnlyTheSpindlesWordsSetItsPower) {
 
 TEST(Gcode, ThatG0DrawsIsSaidWhereNothingLiftsAPen) {
   const std::string path = "G0 X0 Y0\nG1 X9\nG0 Y5\nG1 X0\n";
-  EXPECT_THAT(gcode_table(path).description, HasSubstr("G0 draws too"));
+  EXPECT_THAT(gcode_table(path).description, AllOf(HasSubstr("G0 draws too"), HasSubstr("--pen-up) to G0")));
   EXPECT_THAT(gcode_table("M3\n" + path).description, Not(HasSubstr("G0 draws")));
   EXPECT_THAT(gcode_table("G0 X0 Y0\nG1 X9\n").description, Not(HasSubstr("G0 draws")));
 }
