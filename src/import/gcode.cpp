@@ -125,6 +125,9 @@ class GcodeReader {
     const auto is_named = [&](char letter) {
       return words[letter].has_value() || words.axes.find(letter) != std::string::npos;
     };
+    const bool cuts =
+        words.has_g(10) || words.has_g(20) || words.has_g(30) || (motion_ > 0 && !words.has_g(0));
+    if (code == 530 && cuts && words.has_any_of("XY")) program_.pass_over_machine_move(line_);
     const bool all = code != 530 && !is_named('X') && !is_named('Y') && !is_named('Z');
     if (path_.samples.empty()) return;  // where the path begins is not known either
     for (int axis = 0; axis < 3; ++axis) {

@@ -37,6 +37,12 @@ std::optional<GcodeWords> GcodeProgram::words_to_follow(std::string_view line, s
     in_subprograms_.note(number);
     return {};
   }
+  if (!words.macro.empty()) {
+    if (macros_.count == 0) first_macro_ = words.macro;
+    macros_.note(number);
+    return {};
+  }
+  if (words.may_be_skipped && words.has_any_of("XYZIJ")) skippable_.note(number);
   if (!words.control.empty()) note_call("O " + words.control, number);
   for (const int code : words.m) {
     if (code == 970 || code == 980) note_call(gcode_word_text('M', code), number);
@@ -68,6 +74,8 @@ void GcodeProgram::note_call(const std::string& word, std::size_t line) { calls_
 
 void GcodeProgram::pass_over_rotary_axes(std::size_t line) { rotary_.note(line); }
 
+void GcodeProgram::pass_over_machine_move(std::size_t line) { of_machine_.note(line); }
+
 std::vector<std::string> GcodeProgram::warnings() const {
   std::vector<std::string> sentences;
   for (const auto& [word, lines] : calls_)
@@ -81,6 +89,20 @@ std::vector<std::string> GcodeProgram::warnings() const {
   if (after_end_.count > 0)
     sentences.push_back(fmt::format("{}:{}: {} ends the program, so the moves behind it are not drawn ({})",
                                     name_, end_line_, end_word_, text(after_end_)));
+  if (macros_.count > 0)
+    sentences.push_back(
+        fmt::format("{}: {} and other names of macros are passed over ({}), so what they move is not drawn; "
+                    "write the moves themselves",
+                    name_, first_macro_, text(macros_)));
+  if (skippable_.count > 0)
+    sentences.push_back(fmt::format(
+        "{}: moves in lines that begin with / are drawn ({}); remove those that the machine skips", name_,
+        text(skippable_)));
+  if (of_machine_.count > 0)
+    sentences.push_back(fmt::format(
+        "{}: G53 moves the tool in the machine's coordinates, whose distance from the path is not in "
+        "the file, so these cuts are not drawn ({}); write them in the path's coordinates",
+        name_, text(of_machine_)));
   if (rotary_.count > 0)
     sentences.push_back(
         fmt::format("{}: moves along A, B, C, U, V or W are left out ({}); only X, Y and Z are read", name_,

@@ -21,6 +21,8 @@ class GcodeProgram {
   std::optional<GcodeWords> words_to_follow(std::string_view line, std::size_t number);
   void note_call(const std::string& word, std::size_t line);
   void pass_over_rotary_axes(std::size_t line);
+  /// Takes note of a move in the coordinates of the machine (G53 G1 X5).
+  void pass_over_machine_move(std::size_t line);
   std::vector<std::string> warnings() const;
 
  private:
@@ -40,7 +42,8 @@ class GcodeProgram {
   bool in_subprogram_ = false;
   std::string end_word_;  // empty: the program has not ended
   std::size_t end_line_ = 0;
-  Lines after_end_, in_subprograms_, rotary_;
+  Lines after_end_, in_subprograms_, rotary_, macros_, skippable_, of_machine_;
+  std::string first_macro_;
   std::map<std::string, Lines> calls_;
 };
 

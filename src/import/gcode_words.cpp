@@ -61,6 +61,16 @@ std::string control_of(std::string_view o_word) {
   return word.size() > 1 ? word : "";
 }
 
+/// The name with which a line begins, if it is a macro's (of Klipper): three or more letters and _.
+std::string macro_of(std::string_view line) {
+  line = without_blanks(line);
+  const auto is_of_name = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; };
+  const auto end = std::find_if_not(line.begin(), line.end(), is_of_name);
+  const auto digits_end = std::find_if_not(end, line.end(), [](char c) { return c >= '0' && c <= '9'; });
+  const bool is_alone = digits_end == line.end() || *digits_end == ' ' || *digits_end == '\t';
+  return end - line.begin() >= 3 && is_alone ? std::string(line.begin(), digits_end) : "";
+}
+
 /// The number of a G or M word, times 10.
 int code_of(char letter, double number, std::string_view text, const std::string& location) {
   const double most = letter == 'G' ? 999.9 : 99999.0, code = 10.0 * number;
@@ -84,8 +94,11 @@ bool GcodeWords::has_g(int code) const { return std::find(g.begin(), g.end(), co
 GcodeWords gcode_words(std::string_view line, const std::string& location) {
   GcodeWords words;
   const std::string bare = bare_gcode(line);
-  if (bare.starts_with('O')) words.control = control_of(bare);
+  if (bare.starts_with('O') && bare.find_first_of("<0123456789") == 1) words.control = control_of(bare);
   if (!words.control.empty()) return words;
+  words.macro = macro_of(line.substr(0, line.find_first_of(";(*")));
+  if (!words.macro.empty()) return words;
+  words.may_be_skipped = without_blanks(line).starts_with('/');
   GcodeWords::Values* values = &words.value;
   for (std::string_view rest = bare; !rest.empty();) {
     const char letter = rest[0];

@@ -17,9 +17,11 @@ struct GcodeWords {
   /// Those of an M word that is none of RS-274's, and stands before them: X and Y in "M201 X500 Y500", S in
   /// "M280 S90". They move nothing.
   Values own = {};
-  std::string axes;       ///< letters without a number, as home has them: "G28 X Y"
-  std::string control;    ///< of an O word: "SUB", "CALL", "IF"; empty: none, or only a program's number
-  bool has_text = false;  ///< text follows an M word, as in "M117 Hello"
+  std::string axes;     ///< letters without a number, as home has them: "G28 X Y"
+  std::string control;  ///< of an O word: "SUB", "CALL", "IF"; empty: none, or only a program's number
+  std::string macro;    ///< the name of a command such as "START_PRINT", which is no word; the rest is empty
+  bool may_be_skipped = false;  ///< the line begins with /, which some controls leave out
+  bool has_text = false;        ///< text follows an M word, as in "M117 Hello"
 
   const std::optional<double>& operator[](char letter) const { return of(value, letter); }
   bool has_any_of(std::string_view letters) const;

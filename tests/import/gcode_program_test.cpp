@@ -61,6 +61,33 @@ TEST(GcodeProgram, SubprogramsAreNotDrawnWhereTheyStand) {
                                           HasSubstr("between O sub and O endsub are not drawn")));
 }
 
+TEST(GcodeProgram, MacrosArePassedOverAndSaidOnce) {
+  const SampleTable table = gcode_table(
+      "START_PRINT BED_TEMP=60 ; go\nSET_PRESSURE_ADVANCE ADVANCE=0.05\nG1 X1 Y1\nend_print\nX2\nT_MACRO2\n");
+  EXPECT_THAT(gcode_values(table, "x"), ElementsAre(1, 2));
+  EXPECT_THAT(table.warnings, ElementsAre(AllOf(HasSubstr("START_PRINT and other"),
+                                                HasSubstr("4 lines, the first is line 1"))));
+  for (const char* line : {"GX5", "XY", "GCODE=5", "XYZ5.5", "G1XYZ"})
+    EXPECT_THAT(gcode_complaint(fmt::format("G1 X1 Y1\n{}\n", line)), HasSubstr("path.gcode:2: ")) << line;
+}
+
+TEST(GcodeProgram, LinesThatAControlMaySkipAreSaidToBeDrawn) {
+  const SampleTable table = gcode_table("/G21\nG1 X1 Y1\n/G1 X500\nX2\n / X3\n");
+  EXPECT_THAT(gcode_values(table, "x"), ElementsAre(1, 500, 2, 3));
+  EXPECT_THAT(table.warnings,
+              ElementsAre(AllOf(HasSubstr("begin with /"), HasSubstr("2 lines, the first is line 3"))));
+}
+
+TEST(GcodeProgram, CutsInTheMachinesCoordinatesAreSaidNotToBeDrawn) {
+  for (const char* cut : {"G53 G1 X9 Y9", "G1 G53 X9", "G53 X9"})
+    EXPECT_THAT(gcode_table(fmt::format("G1 X1 Y1\nX2\n{}\nG0 X5\nG1 X6\n", cut)).warnings,
+                ElementsAre(AllOf(HasSubstr("G53 moves"), HasSubstr("cuts are not drawn (line 3)"))))
+        << cut;
+  for (const char* travel : {"G53 G0 X9 Y9", "G0 G53 X9", "G53 G1 Z9"})
+    EXPECT_THAT(gcode_table(fmt::format("G1 X1 Y1\nX2\n{}\nG0 X5\nG1 X6\n", travel)).warnings, ElementsAre())
+        << travel;
+}
+
 TEST(GcodeProgram, ANumberOfAProgramIsNoCall) {
   EXPECT_THAT(gcode_table("O1000\nG1 X1 Y1\nX2\n").warnings, ElementsAre());
 }
