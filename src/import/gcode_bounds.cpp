@@ -56,6 +56,8 @@ void GcodeBounds::take_bound(std::size_t axis, bool is_max, std::optional<double
 void GcodeBounds::take(std::string_view line) {
   if (line.find_first_of(";(") == std::string_view::npos) return;
   const std::string comment = plain_comment(line);
+  for (const char* thing : {"stock", "material", "block", "machine", "bed"})
+    if (comment.find(thing) != std::string::npos) return;  // not the path's
   const std::string_view bounds = comment;
   if (const std::size_t at = bounds.find("bounds"), to = bounds.find("to", at + 6);
       at != std::string_view::npos && to != std::string_view::npos) {
@@ -73,6 +75,17 @@ void GcodeBounds::take(std::string_view line) {
     }
 }
 
+/// True if an extent is that of the path times 25.4: one of both is in the wrong unit.
+bool GcodeBounds::is_in_inches(const Eigen::AlignedBox3d& drawn, double scale) const {
+  for (std::size_t axis = 0; axis < axis_letters.size(); ++axis) {
+    if (!low_[axis] || !high_[axis]) continue;
+    const double ratio =
+        (*high_[axis] - *low_[axis]) * scale / drawn.sizes()[static_cast<Eigen::Index>(axis)];
+    if (std::abs(ratio / 25.4 - 1.0) < 0.02) return true;
+  }
+  return false;
+}
+
 std::optional<std::string> GcodeBounds::disagreement(const Eigen::AlignedBox3d& drawn,
                                                      const Eigen::AlignedBox3d& all, double scale,
                                                      const std::string& name) const {
@@ -80,6 +93,7 @@ std::optional<std::string> GcodeBounds::disagreement(const Eigen::AlignedBox3d& 
   const double tolerance =
       std::max(0.5, 0.01 * size);  // mm: lines have a width, and curves an approximate box
   std::vector<std::string> told, read;
+  bool may_be_frame = true;  // all bounds are outside of all that is reached
   for (std::size_t axis = 0; axis < axis_letters.size(); ++axis)
     for (const bool is_max : {false, true}) {
       const std::optional<double>& bound = (is_max ? high_ : low_)[axis];
@@ -88,16 +102,16 @@ std::optional<std::string> GcodeBounds::disagreement(const Eigen::AlignedBox3d& 
       const double of_drawn = (is_max ? drawn.max() : drawn.min())[i],
                    of_all = (is_max ? all.max() : all.min())[i];
       const double value = *bound * scale;
+      may_be_frame = may_be_frame && (is_max ? value - of_all : of_all - value) > tolerance;
       if (std::min(std::abs(value - of_drawn), std::abs(value - of_all)) <= tolerance) continue;
       const std::string title = fmt::format("{} {}", is_max ? "max" : "min", axis_letters[axis]);
       told.push_back(fmt::format("{} = {:.6g}", title, value));
       read.push_back(fmt::format("{} = {:.6g}", title, of_drawn));
     }
-  if (told.empty()) return {};
+  if (told.empty() || (may_be_frame && !is_in_inches(drawn, scale))) return {};
   return fmt::format(
       "{}: its comments say {} mm, but the path that was read has {} mm; look for a wrong unit (G20, G21), "
-      "and "
-      "for parts that were passed over",
+      "and for parts that were passed over",
       name, fmt::join(told, ", "), fmt::join(read, ", "));
 }
 

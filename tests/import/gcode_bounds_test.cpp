@@ -39,6 +39,15 @@ TEST(GcodeBounds, ThePathThatIsDrawnOrAllOfItMayBeMeant) {
   EXPECT_THAT(gcode_table("; Bounds: X0 Y0 to X99 Y10\n" + path).warnings, ElementsAre());
 }
 
+TEST(GcodeBounds, TheStockAndAFrameAroundThePathAreNothingToTell) {
+  for (const char* comments : {"(Stock: min X 0 max X 200)", "; Material bounds: X0 Y0 to X300 Y300",
+                               "; machine max_x = 500", "(block min x = 10, max x = 500)", "; bed: MAXX:220",
+                               "(min X 0 max X 200)\n(min Y 0 max Y 200)", "; Bounds: X5 Y15 to X55 Y45"})
+    EXPECT_THAT(square(comments).warnings, ElementsAre()) << comments;
+  for (const char* comments : {"(min X 20 max X 200)", "(min X 0 max X 1016)", "(min X 10 max X 200)"})
+    EXPECT_THAT(square(comments).warnings, ElementsAre(HasSubstr("its comments say"))) << comments;
+}
+
 TEST(GcodeBounds, ADisagreementNamesBoth) {
   for (const char* comments : true_comments) {
     const SampleTable table = gcode_table(std::string(comments) + "\nG1 X254 Y508\nX1270\nY1016\n");
