@@ -78,10 +78,11 @@ SampleTable table_of_gcode(const GcodePath& path, const std::string& name) {
   const bool has_word = !path.pen_word.empty();
   if (samples.empty())
     throw_input_error("{}: has no moves (G0 to G3 with X, Y or Z); give a file with a path", name);
-  const bool by_z = z_lifts_a_pen(samples);
+  bool by_z = z_lifts_a_pen(samples);
   const bool has_z = by_z || std::any_of(samples.begin(), samples.end(),
                                          [](const auto& sample) { return sample.position.z() != 0.0; });
   const std::vector<bool> down = pen_is_down(path, by_z, has_z);
+  if (std::find(down.begin(), down.end(), false) == down.end()) by_z = false;  // it lifts nothing
   const std::vector<double> time = times_of(samples);
 
   SampleTable table;

@@ -171,6 +171,13 @@ TEST(Gcode, APenMayDrawAboveZero) {
   EXPECT_THAT(table.lifts, ElementsAre(false, true, false, false));
 }
 
+TEST(Gcode, AZThatIsNowhereAboveTheDrawingLiftsNothing) {
+  const SampleTable table = gcode_table("G1 X10 Y10\nG0 Z5\nG1 X20 Y10\n");
+  EXPECT_THAT(gcode_values(table, "z"), ElementsAre(0, 5, 5));
+  EXPECT_THAT(table.lifts, ElementsAre());
+  EXPECT_THAT(table.description, AllOf(HasSubstr("Z is a height"), Not(HasSubstr("the pen is up"))));
+}
+
 TEST(Gcode, AReliefKeepsItsHeights) {
   const SampleTable table = gcode_table("G1 X0 Y0 Z1\nX1 Z-1\nX2 Z2\n");
   EXPECT_THAT(gcode_values(table, "z"), ElementsAre(1, -1, 2));
