@@ -19,6 +19,9 @@ GcodePenWord pen_word(const std::string& text, const char* key) {
       word.values[i] = words.own[i] ? words.own[i] : words.value[i];
   } else if (words.m.empty() && words.g == std::vector<int>{0} && !words.has_any_of("XYZS")) {
     word.rapid = true;
+  } else if (words.m.empty() && words.g == std::vector<int>{10} && !words.has_any_of("XYZS") &&
+             std::string_view(key) == "pen_down") {
+    word.draws = true;
   } else {
     throw_input_error(
         "{} = \"{}\" is not a G-code word that moves a pen; give a word such as \"M280 S90\", "
@@ -41,6 +44,13 @@ std::string m_and_s(int m, double s) { return fmt::format("{} S{}", gcode_word_t
 
 GcodePen::GcodePen(const std::string& pen_up, const std::string& pen_down)
     : up_(pen_word(pen_up, "pen_up")), down_(pen_word(pen_down, "pen_down")) {
+  if (down_.draws && (up_.rapid || !up_.given())) {
+    up_ = pen_word("G0", "pen_up");
+    down_ = {};
+  }
+  if (down_.draws)
+    throw_input_error("pen_up = \"{}\" and pen_down = \"{}\" are two ways to move a pen; leave out one",
+                      pen_up, pen_down);
   if (down_.rapid) throw_input_error("pen_down = \"G0\": G0 never draws with a pen; give an M word");
   if (up_.given() && down_.given() && up_.m == down_.m && up_.values == down_.values)
     throw_input_error("pen_up and pen_down are the same word, \"{}\"; give two different ones", pen_up);

@@ -15,6 +15,7 @@ struct GcodePenWord {
   std::string text;
   int m = -1;          ///< the M word's number times 10; -1: none
   bool rapid = false;  ///< it is G0
+  bool draws = false;  ///< it is G1, as pen_down: the same as G0 as pen_up
   GcodeWords::Values values = {};
 
   bool given() const { return !text.empty(); }

@@ -145,6 +145,7 @@ TEST(GcodePen, G0MayBeTheWordThatLifts) {
   EXPECT_THAT(gcode_values(table, "y"), ElementsAre(0, 0, 5, 5));
   EXPECT_THAT(table.lifts, ElementsAre(false, true, false, false));
   EXPECT_THAT(table.description, HasSubstr("G0 moves the pen"));
+  for (const char* up : {"", "G0", "g00"}) EXPECT_EQ(drawn(path, up, "G1").lifts, table.lifts) << up;
 }
 
 TEST(GcodePen, SaysWhatIsWrong) {
@@ -156,6 +157,7 @@ TEST(GcodePen, SaysWhatIsWrong) {
     EXPECT_THAT(complaint(word, ""), HasSubstr("pen_up")) << word;
   EXPECT_THAT(complaint("M3 S30", "M3 S30"), HasSubstr("are the same word"));
   EXPECT_THAT(complaint("", "G0"), HasSubstr("G0 never draws"));
+  EXPECT_THAT(complaint("M5", "G1"), HasSubstr("two ways to move a pen"));
   EXPECT_THAT(complaint("", "M106"), HasSubstr("no line has M106, so the pen is never down"));
   EXPECT_THAT(complaint("M3", ""),
               AllOf(HasSubstr("pen_up = \"M3\" lifts it all the time"), HasSubstr("--pen-down")));
