@@ -210,8 +210,7 @@ bool LayoutFinder::is_pen_up(std::size_t column) const {
   return means == Means::pen_up || means == Means::perhaps_pen_up;
 }
 
-LayoutFinder::Time LayoutFinder::found_time(const std::string& key,
-                                            std::vector<std::string>& warnings) const {
+LayoutFinder::Time LayoutFinder::plainest_time() const {
   const Time time{found_one(Means::time), {}};
   if (!time.column) return time;
   const std::string& group = names_[*time.column].parts.group;
@@ -225,7 +224,13 @@ LayoutFinder::Time LayoutFinder::found_time(const std::string& key,
   };
   const auto seconds = part(true), fraction = part(false);
   const bool in_two = seconds && fraction && (time.column == seconds || time.column == fraction);
-  if (!in_two) return {found_one(Means::time, key, warnings), {}};
+  return in_two ? Time{seconds, fraction} : time;
+}
+
+LayoutFinder::Time LayoutFinder::found_time(const std::string& key,
+                                            std::vector<std::string>& warnings) const {
+  const auto [seconds, fraction] = plainest_time();
+  if (!fraction) return {found_one(Means::time, key, warnings), {}};
   check_only_one(names_[*seconds].name, key);
   check_only_one(names_[*fraction].name, key);
   if (names_[*seconds].has_fractions || !names_[*fraction].reaches_second) return {seconds, fraction};

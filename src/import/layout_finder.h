@@ -46,8 +46,9 @@ class LayoutFinder {
   struct Time {
     std::optional<std::size_t> column, fraction;
   };
-  /// The plainest time, and the column with the fractions of its seconds. Warnings name rivals; key: the
-  /// setting that chooses.
+  /// The plainest time, and the column with the fractions of its seconds, whatever rivals it has.
+  Time plainest_time() const;
+  /// The same. Warnings name rivals; key: the setting that chooses.
   Time found_time(const std::string& key, std::vector<std::string>& warnings) const;
   /// The time that the settings name: one column, or "sec,nanosec".
   Time named_time(const std::string& wanted) const;

@@ -43,7 +43,7 @@ SampleCells::SampleCells(const TableLayout& layout, const TableSettings& setting
        {&layout.position, &layout.velocity, &layout.force, &layout.orientation})
     for (const ColumnChoice& choice : *choices) want(choice.column, Cell::number);
   if (layout.pressure) want(*layout.pressure, Cell::number);
-  if (layout.time_fraction) want(*layout.time_fraction, times_count_ ? Cell::number : Cell::perhaps);
+  if (layout.time_fraction) want(*layout.time_fraction, times_count_ ? Cell::number : Cell::perhaps_number);
   if (layout.pen_state) want(*layout.pen_state, Cell::state);
   if (layout.stroke_number) want(*layout.stroke_number, Cell::label);
   for (const std::size_t column : layout.perhaps_pen_state) want(column, Cell::perhaps_state);

@@ -102,14 +102,11 @@ TableLayout table_layout(const std::vector<SampleColumn>& columns, const TableSe
                           : finder.one(settings.pressure);
   take_pen_columns(finder, settings, layout);
   const bool by_other = settings.time.empty() && (settings.rate > 0.0 || settings.speed > 0.0);
-  if (by_other) {
-    layout.replaced_time = finder.found_one(Means::time);
-  } else {
-    const auto time = settings.time.empty()
-                          ? finder.found_time(of_first ? "merge_time" : "time", layout.warnings)
-                          : finder.named_time(settings.time);
-    layout.time = time.column;
-  }
+  const LayoutFinder::Time time = by_other ? finder.plainest_time()
+                                  : settings.time.empty()
+                                      ? finder.found_time(of_first ? "merge_time" : "time", layout.warnings)
+                                      : finder.named_time(settings.time);
+  (by_other ? layout.replaced_time : layout.time) = time.column;
   layout.time_fraction = time.fraction;
   layout.sample_number = finder.found_one(Means::number);
   return layout;
