@@ -49,13 +49,12 @@ class GcodeReader {
   }
 
   SampleTable table() {
-    const bool z_moves = std::any_of(path_.samples.begin(), path_.samples.end(),
-                                     [](const GcodeSample& sample) { return sample.along_z; });
-    pen_.check_known(name_, z_moves);
+    const bool z_may_lift = z_may_lift_a_pen(path_.samples);
+    pen_.check_known(name_, z_may_lift);
     path_.pen_word = pen_.word();
     path_.pen_is_named = pen_.is_named();
     SampleTable table = table_of_gcode(path_, name_);
-    for (const auto& warnings : {pen_.warnings(name_, z_moves), program_.warnings()})
+    for (const auto& warnings : {pen_.warnings(name_, z_may_lift), program_.warnings()})
       table.warnings.insert(table.warnings.end(), warnings.begin(), warnings.end());
     Eigen::AlignedBox3d all;
     for (const GcodeSample& sample : path_.samples) all.extend(sample.position);

@@ -23,11 +23,17 @@ bool z_lifts_a_pen(const Samples& samples) {
   return moves;
 }
 
+/// The lowest Z of a move along X or Y.
+double lowest_drawn(const Samples& samples) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const GcodeSample& sample : samples)
+    if (sample.along_xy && sample.height_known) lowest = std::min(lowest, sample.position.z());
+  return lowest;
+}
+
 std::vector<bool> pen_is_down(const GcodePath& path, bool by_z, bool has_z) {
   const bool has_word = !path.pen_word.empty();
-  double lowest = std::numeric_limits<double>::infinity();  // Z of a move along X or Y
-  for (const GcodeSample& sample : path.samples)
-    if (sample.along_xy && sample.height_known) lowest = std::min(lowest, sample.position.z());
+  const double lowest = lowest_drawn(path.samples);
   std::vector<bool> down;
   for (const GcodeSample& sample : path.samples)
     down.push_back((!has_word || sample.down) && (!has_z || sample.height_known) &&
@@ -72,6 +78,13 @@ std::string description_of(const GcodePath& path, std::size_t points, bool by_z,
 }
 
 }  // namespace
+
+bool z_may_lift_a_pen(const Samples& samples) {
+  const double lowest = lowest_drawn(samples);
+  const auto last =
+      std::find_if(samples.rbegin(), samples.rend(), [](const auto& sample) { return sample.along_xy; });
+  return std::any_of(last, samples.rend(), [&](const auto& sample) { return sample.position.z() > lowest; });
+}
 
 SampleTable table_of_gcode(const GcodePath& path, const std::string& name) {
   const Samples& samples = path.samples;

@@ -36,6 +36,10 @@ struct GcodePath {
 /// (keep_lines_straight).
 inline constexpr double gcode_line_tolerance = 0.01;  // mm
 
+/// True if the path is somewhere above the lowest Z of its moves along X or Y, not only behind the last of
+/// them.
+bool z_may_lift_a_pen(const std::vector<GcodeSample>& samples);
+
 /// A table of the samples at which the pen is down: according to M words, and to Z if it only moves by
 /// itself. Error: input; `name` is the file's.
 SampleTable table_of_gcode(const GcodePath& path, const std::string& name);

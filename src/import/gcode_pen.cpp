@@ -147,12 +147,12 @@ std::string GcodePen::word() const {
   return has_spindle_ ? gcode_spindle : "";
 }
 
-std::vector<std::string> GcodePen::warnings(const std::string& name, bool z_moves) const {
+std::vector<std::string> GcodePen::warnings(const std::string& name, bool z_may_lift) const {
   std::vector<std::string> sentences;
   if (up_.given() && !has_up_)
     sentences.push_back(fmt::format("{}: no line has {}, so the pen never lifts; correct {}", name, up_.text,
                                     option_and_key("pen_up")));
-  if (is_named() || has_spindle_ || z_moves) return sentences;
+  if (is_named() || has_spindle_ || z_may_lift) return sentences;
   for (const GcodeOutputs::Question& question : outputs_.questions())
     if (question.is_coolant)
       sentences.push_back(fmt::format(
@@ -161,7 +161,7 @@ std::vector<std::string> GcodePen::warnings(const std::string& name, bool z_move
   return sentences;
 }
 
-void GcodePen::check_known(const std::string& name, bool z_moves) const {
+void GcodePen::check_known(const std::string& name, bool z_may_lift) const {
   if (down_.given() && !has_down_)
     throw_input_error("{}: no line has {}, so the pen is never down; correct {}", name, down_.text,
                       option_and_key("pen_down"));
@@ -172,9 +172,10 @@ void GcodePen::check_known(const std::string& name, bool z_moves) const {
         "lifts, such as \"{}\"",
         name, servo_line_, gcode_word_text('M', servo_), fmt::join(servo_angles_, " and "),
         option_and_key("pen_up"), m_and_s(servo_, *servo_angles_.rbegin()));
-  if (!z_moves && !has_spindle_ && servo_angles_.empty()) ask_about_outputs(name);
+  if (!z_may_lift && !has_spindle_) ask_about_outputs(name);
   constexpr std::size_t most = 4;  // a servo has few positions; more are a laser's shades
-  if (z_moves || power_in_moves_ || off_in_moves_ || drawn_powers_.size() < 2 || drawn_powers_.size() > most)
+  if (z_may_lift || power_in_moves_ || off_in_moves_ || drawn_powers_.size() < 2 ||
+      drawn_powers_.size() > most)
     return;
   throw_input_error(
       "{}:{}: moves are made at S {} of {}, and none at M5 or S0, so it is not known which of them lifts the "

@@ -42,11 +42,11 @@ class GcodePen {
   /// The word that moves the pen, for messages; empty: none does.
   std::string word() const;
   bool is_named() const { return up_.given() || down_.given(); }
-  /// Warnings on words that never occurred, and on coolant that may be a pen; `name` is the file's. z_moves:
-  /// Z may lift it.
-  std::vector<std::string> warnings(const std::string& name, bool z_moves) const;
+  /// Warnings on words that never occurred, and on coolant that may be a pen; `name` is the file's.
+  /// z_may_lift: Z may lift it.
+  std::vector<std::string> warnings(const std::string& name, bool z_may_lift) const;
   /// Error: input, if only the user can know which position lifts the pen.
-  void check_known(const std::string& name, bool z_moves) const;
+  void check_known(const std::string& name, bool z_may_lift) const;
 
  private:
   /// True if the line switches the word's output; for a spindle, also if it changes S.

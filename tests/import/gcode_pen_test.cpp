@@ -93,6 +93,10 @@ TEST(GcodePen, AsksWhichStateOfAnOutputLifts) {
     EXPECT_EQ(drawn(path, up).size(), 4u) << up;
     EXPECT_EQ(path_length(drawn(path, "M5")), 90.0) << up;
   }
+  // A height that is only set, before or behind the path, lifts nothing; nor does a servo that stands still.
+  const std::string fan = fmt::format(fmt::runtime(servo), "M107", "M106 S255");
+  for (const std::string& path : {fan + "G0 Z5\n", "M280 P0 S90\n" + fan, "G1 X0 Y0\nG1 Z3\n" + fan})
+    EXPECT_THAT(gcode_complaint(path), HasSubstr("after M107 and after M106 S255")) << path;
   EXPECT_THAT(gcode_complaint(fmt::format(fmt::runtime(servo), "S30", "S90")),
               AllOf(HasSubstr("after M3 S30 and after M3 S90"), HasSubstr("\"M3 S30\"")));
 }
