@@ -45,7 +45,7 @@ void describe_table(KeyVisitor& v, TableSettings& t) {
   v.text("skip", t.skip, "lines that begin with one of these words are skipped: \"START,END\"");
   v.text("pen_up", t.pen_up,
          "lines that begin with one of these words lift the pen; for G-code, the word that lifts it: "
-         "\"M280 S90\", \"M3 S30\", \"M5\", \"G0\"");
+         "\"M280 S90\", \"M3 S30\", \"M5\", \"G0\", or none");
   v.text("pen_down", t.pen_down,
          "for G-code, the word that lowers the pen, if it is not the one of pen_up with another number: "
          "\"M106\"");

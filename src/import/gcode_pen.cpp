@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "haptics/table_settings.h"
 #include "import/table_layout.h"
 
 namespace sandstroke {
@@ -25,7 +26,7 @@ GcodePenWord pen_word(const std::string& text, const char* key) {
   } else {
     throw_input_error(
         "{} = \"{}\" is not a G-code word that moves a pen; give a word such as \"M280 S90\", "
-        "\"M3 S30\", \"M5\" or \"G0\"",
+        "\"M3 S30\", \"M5\", \"G0\" or none",
         key, text);
   }
   return word;
@@ -43,7 +44,9 @@ std::string m_and_s(int m, double s) { return fmt::format("{} S{}", gcode_word_t
 }  // namespace
 
 GcodePen::GcodePen(const std::string& pen_up, const std::string& pen_down)
-    : up_(pen_word(pen_up, "pen_up")), down_(pen_word(pen_down, "pen_down")) {
+    : never_lifts_(is_none(pen_up)),
+      up_(pen_word(never_lifts_ ? "" : pen_up, "pen_up")),
+      down_(pen_word(pen_down, "pen_down")) {
   if (down_.draws && (up_.rapid || !up_.given())) {
     up_ = pen_word("G0", "pen_up");
     down_ = {};
@@ -137,6 +140,7 @@ void GcodePen::note_move(int motion) {
 }
 
 bool GcodePen::down(int motion) const {
+  if (never_lifts_) return true;
   if (is_named()) return is_down_ && !(up_.rapid && motion == 0);
   return has_spindle_ && spindle_ != 50 && power_ != 0.0 && motion != 0;
 }
@@ -179,7 +183,7 @@ void GcodePen::check_known(const std::string& name, bool z_may_lift) const {
     return;
   throw_input_error(
       "{}:{}: moves are made at S {} of {}, and none at M5 or S0, so it is not known which of them lifts the "
-      "pen; set {} to the one that lifts, such as \"{}\", or to \"M5\" if all of them draw",
+      "pen; set {} to the one that lifts, such as \"{}\", or to none if all of them draw",
       name, spindle_line_, fmt::join(drawn_powers_, " and "), gcode_word_text('M', first_spindle_),
       option_and_key("pen_up"), m_and_s(first_spindle_, *drawn_powers_.begin()));
 }
@@ -189,7 +193,7 @@ void GcodePen::ask_about_outputs(const std::string& name) const {
     if (!question.is_coolant)
       throw_input_error(
           "{}:{}: moves are made after {}, so it is not known which of them lifts the pen; set {} to the one "
-          "that lifts, such as \"{}\", or to \"M5\" if all of them draw",
+          "that lifts, such as \"{}\", or to none if all of them draw",
           name, question.line, fmt::join(question.states, " and after "), option_and_key("pen_up"),
           question.states.front());
 }

@@ -28,7 +28,8 @@ inline constexpr const char* gcode_spindle = "M3";
 /// The pen's state by a program's words. If it has M3 or M4, the pen is down after these, and up after M5, at
 /// S0 and in G0. A word that the user names takes their place: the pen is then up after pen_up, and down
 /// after another word of the same output (M106 S255, M107), or after pen_down. G0 draws then where the pen is
-/// down, unless pen_up is "G0". M3, M4, M5 and S stay in force: an S alone moves the pen of "M3 S30".
+/// down, unless pen_up is "G0"; with "none" all moves draw. M3, M4, M5 and S stay in force: an S alone moves
+/// the pen of "M3 S30".
 class GcodePen {
  public:
   /// Error: input, if a word is not one of those.
@@ -41,7 +42,7 @@ class GcodePen {
   bool down(int motion) const;
   /// The word that moves the pen, for messages; empty: none does.
   std::string word() const;
-  bool is_named() const { return up_.given() || down_.given(); }
+  bool is_named() const { return never_lifts_ || up_.given() || down_.given(); }
   /// Warnings on words that never occurred, and on coolant that may be a pen; `name` is the file's.
   /// z_may_lift: Z may lift it.
   std::vector<std::string> warnings(const std::string& name, bool z_may_lift) const;
@@ -57,6 +58,7 @@ class GcodePen {
 
   void ask_about_outputs(const std::string& name) const;
 
+  bool never_lifts_;  // pen_up is none: all moves draw
   GcodePenWord up_, down_;
   bool is_down_ = false, has_up_ = false, has_down_ = false;  // of words that are named
   int spindle_ = -1;                                          // the last of M3, M4 and M5

@@ -36,7 +36,10 @@ void take_pen_columns(const LayoutFinder& finder, const TableSettings& settings,
     layout.pen_state = finder.found_one(Means::pen_down, "pen_state", layout.warnings);
     if (!layout.pen_state) layout.pen_state = finder.found_one(Means::pen_up, "pen_state", layout.warnings);
   }
-  if (layout.pen_state) layout.state_is_up = finder.is_pen_up(*layout.pen_state) != (state.sign < 0.0);
+  if (layout.pen_state) {
+    layout.state_named_up = finder.is_pen_up(*layout.pen_state);
+    layout.state_is_up = layout.state_named_up != (state.sign < 0.0);
+  }
   if (layout.stroke_number || layout.pen_state || is_none(settings.stroke_number) ||
       is_none(settings.pen_state))
     return;

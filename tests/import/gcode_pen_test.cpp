@@ -68,9 +68,9 @@ TEST(GcodePen, AsksWhichOfTwoPositionsLifts) {
                              HasSubstr("stroke.table.pen_up (stroke convert: --pen-up)")));
     // Both ways out that it names work.
     const std::string lifts = fmt::format("{} S30", m);
-    EXPECT_THAT(asked, AllOf(HasSubstr("\"" + lifts + "\""), HasSubstr("\"M5\"")));
+    EXPECT_THAT(asked, AllOf(HasSubstr("\"" + lifts + "\""), HasSubstr("or to none")));
     EXPECT_EQ(drawn(path, lifts).size(), 4u);
-    EXPECT_EQ(path_length(drawn(path, "M5")), 90.0);
+    EXPECT_EQ(path_length(drawn(path, "none")), 90.0);
   }
 }
 
@@ -91,7 +91,7 @@ TEST(GcodePen, AsksWhichStateOfAnOutputLifts) {
                 AllOf(HasSubstr("path.gcode:3: "), HasSubstr(up), HasSubstr(down), HasSubstr("--pen-up"),
                       HasSubstr(fmt::format("such as \"{}\"", up))));
     EXPECT_EQ(drawn(path, up).size(), 4u) << up;
-    EXPECT_EQ(path_length(drawn(path, "M5")), 90.0) << up;
+    EXPECT_EQ(path_length(drawn(path, "none")), 90.0) << up;
   }
   // A height that is only set, before or behind the path, lifts nothing; nor does a servo that stands still.
   const std::string fan = fmt::format(fmt::runtime(servo), "M107", "M106 S255");

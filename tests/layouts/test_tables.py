@@ -386,7 +386,7 @@ def velocity_in_other_units(file, m):
     """The recorded velocity is a thousand times the change of the positions."""
     v = np.gradient(m.p, m.t, axis=0) * 1e3
     file.write_text("t_s,x_mm,y_mm,z_mm,vx_m/s,vy_m/s,vz_m/s\n" + rows([m.t, *columns(m.p, 1e3), *columns(v)]))
-    return Layout(t=m.t, p=m.p, says="1000")
+    return Layout(t=m.t, p=m.p, says="times the speed of position")
 
 
 @pytest.mark.parametrize("name", TABLES)
