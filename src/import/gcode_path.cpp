@@ -60,13 +60,13 @@ std::string description_of(const GcodePath& path, std::size_t points, bool by_z,
   else if (has_z)
     text += ", Z is a height";
   if (path.pen_is_named)
-    text += fmt::format(", {} moves the pen", path.pen_word);
+    text += path.pen_word.empty() ? ", all moves draw" : fmt::format(", {} moves the pen", path.pen_word);
   else if (!path.pen_word.empty())
     text += fmt::format(", the pen is down after {}", path.pen_word);
-  if (path.pen_word.empty() && path.moves_rapidly && !by_z)
+  if (path.pen_word.empty() && !path.pen_is_named && path.moves_rapidly && !by_z)
     text += fmt::format(", G0 draws too, because nothing lifts the pen (set {} to G0 if it lifts)",
                         option_and_key("pen_up"));
-  else if (path.draws_rapidly && !by_z)
+  else if (path.draws_rapidly && !path.pen_word.empty() && !by_z)
     text += ", G0 draws too where the pen is down";
   std::vector<std::string> passed;
   for (const auto& [letter, code] : path.passed_over) passed.push_back(gcode_word_text(letter, code));

@@ -146,6 +146,7 @@ bool GcodePen::down(int motion) const {
 }
 
 std::string GcodePen::word() const {
+  if (never_lifts_) return "";
   if (up_.given()) return up_.text;
   if (down_.given()) return down_.text;
   return has_spindle_ ? gcode_spindle : "";

@@ -156,10 +156,36 @@ std::string velocity_disagreement(const Stroke& stroke, const std::vector<std::s
   return "";
 }
 
+namespace {
+
+constexpr double least_jump_ratio = 20.0;    // to the fastest other steps, or the usual of few
+constexpr double least_jump_distance = 0.1;  // of the stroke's extent
+
+/// The ends of steps to samples that stand alone: the tip goes far away from where it hardly moves, and comes
+/// back at once. However many they are, as where a tracker writes -9999 for what it did not see, no hand does
+/// that.
+std::vector<std::size_t> ends_at_lone_samples(const Stroke& stroke, double least_speed,
+                                              double least_distance) {
+  constexpr double nearby = 0.1;  // of the way to the sample
+  const auto step = [&](std::size_t i) { return stroke.position[i + 1] - stroke.position[i]; };
+  std::vector<std::size_t> ends;
+  for (std::size_t i = 1; i + 1 < stroke.size(); ++i) {
+    if (!stroke.joined(i - 1) || !stroke.joined(i)) continue;
+    const double there = step(i - 1).norm(), back = step(i).norm(), nearer = std::min(there, back);
+    const double longer = std::max(stroke.time[i] - stroke.time[i - 1], stroke.time[i + 1] - stroke.time[i]);
+    const bool returns = (step(i - 1) + step(i)).norm() < nearby * nearer;
+    const bool came_slowly = i < 2 || step(i - 2).norm() < nearby * nearer;
+    const bool goes_slowly = i + 2 >= stroke.size() || step(i + 1).norm() < nearby * nearer;
+    if (returns && came_slowly && goes_slowly && nearer > least_distance && nearer > least_speed * longer)
+      ends.insert(ends.end(), {i, i + 1});
+  }
+  return ends;
+}
+
+}  // namespace
+
 std::vector<Jump> jumps_of(const Stroke& stroke) {
   constexpr std::size_t least_steps = 3, few_steps = 20;
-  constexpr double least_ratio = 20.0;    // to the fastest other steps, or the usual of few
-  constexpr double least_distance = 0.1;  // of the stroke's extent
   std::vector<Jump> steps;
   std::vector<double> speeds;
   for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {
@@ -175,11 +201,17 @@ std::vector<Jump> jumps_of(const Stroke& stroke) {
                           ? speeds.begin() + static_cast<std::ptrdiff_t>((speeds.size() - 1) / 2)
                           : speeds.end() - 3 - static_cast<std::ptrdiff_t>(speeds.size() / 100);
   std::nth_element(speeds.begin(), others, speeds.end());
-  const double fastest = *others, extent = box_of(stroke).sizes().maxCoeff();
+  const double fastest = *others, least_distance = least_jump_distance * box_of(stroke).sizes().maxCoeff();
+  const double usual = median(std::move(speeds));
+  std::vector<std::size_t> alone;
+  if (usual > 0.0) alone = ends_at_lone_samples(stroke, least_jump_ratio * usual, least_distance);
   std::erase_if(steps, [&](const Jump& step) {
-    return !(fastest > 0.0 && step.ratio > least_ratio * fastest && step.distance > least_distance * extent);
+    const bool fast =
+        fastest > 0.0 && step.ratio > least_jump_ratio * fastest && step.distance > least_distance;
+    return !fast && !std::binary_search(alone.begin(), alone.end(), step.sample);
   });
-  for (Jump& jump : steps) jump.ratio /= fastest;
+  const double other = fastest > 0.0 && !(usual > 0.0 && usual < fastest) ? fastest : usual;
+  for (Jump& jump : steps) jump.ratio /= other;
   return steps;
 }
 

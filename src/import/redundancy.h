@@ -25,12 +25,13 @@ std::string number_disagreement(const SampleColumn& numbers, const std::vector<d
 std::string velocity_disagreement(const Stroke& stroke, const std::vector<std::string>& position,
                                   const std::vector<std::string>& velocity);
 
-/// A step to the next sample that is much faster than all others and leads across a part of the stroke.
+/// A step to the next sample that leads across a part of the stroke and is much faster than all others; or to
+/// or from a sample that stands alone, and much faster than most.
 struct Jump {
   std::size_t sample = 0;  ///< at its end
   double distance = 0.0;   ///< m
   double time = 0.0;       ///< s
-  double ratio = 0.0;      ///< to the speed of the fastest other steps; of fewer than 20, to the usual one
+  double ratio = 0.0;      ///< to the speed of the fastest other steps, or of the usual ones
 };
 /// All such steps, where the tool is not lifted.
 std::vector<Jump> jumps_of(const Stroke& stroke);

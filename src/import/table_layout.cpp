@@ -38,7 +38,7 @@ void take_pen_columns(const LayoutFinder& finder, const TableSettings& settings,
   }
   if (layout.pen_state) {
     layout.state_named_up = finder.is_pen_up(*layout.pen_state);
-    layout.state_is_up = layout.state_named_up != (state.sign < 0.0);
+    layout.state_is_up = layout.state_named_up || state.sign < 0.0;  // "-NAME" is down where it is 0
   }
   if (layout.stroke_number || layout.pen_state || is_none(settings.stroke_number) ||
       is_none(settings.pen_state))

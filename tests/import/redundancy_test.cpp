@@ -115,6 +115,30 @@ TEST(Redundancy, ATeleportIsFoundInAShortStroke) {
     }
 }
 
+TEST(Redundancy, SamplesThatStandAloneAreFoundHoweverManyTheyAre) {
+  for (const int size : {21, 24, 40, 100, 400})
+    for (const int every : {9, 16, 37}) {
+      Stroke stroke;
+      std::size_t wrong = 0;
+      for (int i = 0; i < size; ++i) {
+        stroke.time.push_back(0.01 * i);
+        const bool is_wrong = i % every == every / 2 && i + 1 < size;
+        wrong += is_wrong;
+        stroke.position.push_back(is_wrong
+                                      ? Vector3d(-9.999, -9.999, 0.0)
+                                      : Vector3d(0.05 * std::cos(0.1 * i), 0.05 * std::sin(0.1 * i), 0.0));
+      }
+      EXPECT_EQ(jumps_of(stroke).size(), 2 * wrong) << size << " samples, every " << every;
+    }
+  Stroke taps;  // there and back in three samples each: fast, but no sample stands alone
+  for (int i = 0; i < 200; ++i) {
+    taps.time.push_back(0.01 * i);
+    const int phase = i % 40;
+    taps.position.emplace_back(0.0001 * i, phase > 6 ? 0.0 : 0.02 * (phase < 3 ? phase : 6 - phase), 0.0);
+  }
+  EXPECT_TRUE(jumps_of(taps).empty());
+}
+
 TEST(Redundancy, TheSentencesNameTheFileAndTheLine) {
   SampleColumn t{"t", "s", {}}, x{"x", "m", {}}, y{"y", "m", {}}, v{"vx", "mm/s", {}}, w{"vy", "mm/s", {}};
   for (int i = 0; i < 200; ++i) {
