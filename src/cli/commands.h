@@ -18,7 +18,8 @@ CLI::Validator not_negative_number();
 CLI::Validator finite_number();
 CLI::Validator number_within(Range range);
 
-/// Adds --set, which overrides keys of a scene. For load_scene.
+/// Adds --set, which overrides keys of a scene, and --unset, which takes them out. For load_scene. Returns
+/// --set.
 CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrides);
 
 /// The files that shells offer for a stroke: scripts, recordings, and all that `stroke convert` reads.

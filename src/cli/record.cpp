@@ -296,6 +296,7 @@ void add_force_options(CLI::App& app, RecordArguments& arguments) {
                    ->type_name("FILE.toml")
                    ->option_text("SCENE.toml");
   add_set_option(app, arguments.overrides)->needs(feel);
+  app.get_option("--unset")->needs(feel);
   app.add_option("--max-force", force.max_force,
                  "Largest force on the hand [N]. Default: the limit of the device or the scene")
       ->check(not_negative_number())

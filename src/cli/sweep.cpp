@@ -127,6 +127,7 @@ int sweep(const SweepArguments& arguments) {
   options.jobs = arguments.jobs;
   options.shard = parse_shard(arguments.shard);
   SweepPlan plan = load_plan(arguments.plan);
+  for (const std::string& note : plan.notes) spdlog::info("{}", note);
   catch_interrupts();
   Sweep sweep(std::move(plan));
   if (interrupted()) return 128 + interrupted();

@@ -19,6 +19,7 @@ class Warnings {
   ~Warnings();
   Warnings(const Warnings&) = delete;
   Warnings& operator=(const Warnings&) = delete;
+  void add(const std::string& sentence) { sentences_.push_back(sentence); }
   /// Call it with the interpreter lock. May throw: users can turn a warning into an error.
   void give();
 

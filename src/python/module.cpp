@@ -65,13 +65,27 @@ py::array frames(const py::object& self) {
                  {rows * cols * number, cols * number, number}, self);
 }
 
-SceneHere scene_of_file(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  return {load_scene(path, overrides), path.parent_path()};
+/// Tells the user, as a Python warning, what the settings left out.
+void tell_left_out(const std::vector<LeftOut>& left_out) {
+  Warnings warnings;
+  if (!left_out.empty()) warnings.add("scene: " + left_out_text(left_out));
+  warnings.give();
 }
 
+SceneHere scene_of_file(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  std::vector<LeftOut> left_out;
+  SceneHere here{load_scene(path, overrides, &left_out), path.parent_path()};
+  tell_left_out(left_out);
+  return here;
+}
+
+/// own: overrides that belong to the text.
 SceneHere scene_of_text(const std::string& text, const std::filesystem::path& folder,
-                        const std::vector<std::string>& overrides) {
-  return {scene_from_text(text, "scene", overrides), folder};
+                        const std::vector<std::string>& own, const std::vector<std::string>& overrides) {
+  std::vector<LeftOut> left_out;
+  SceneHere here{scene_from_text({text, "scene", own}, overrides, &left_out), folder};
+  tell_left_out(left_out);
+  return here;
 }
 
 /// Draws an array (height, width, 3) of 8 bits. Without tip it draws no tool.

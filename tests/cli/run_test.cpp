@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <spdlog/fmt/fmt.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "cli/program.h"
+#include "core/output_file.h"
 #include "hdf5/hdf5_reader.h"
 #include "io/run_file.h"
 #include "io/stroke_file.h"
@@ -31,6 +33,34 @@ TEST(CliRun, WritesARunFileXdmfAndPicture) {
   EXPECT_NE(run.out.find("volume drift"), std::string::npos);
   EXPECT_NE(run.out.find("for ParaView       a.xdmf\n"), std::string::npos) << run.out;
   EXPECT_NE(run.out.find("picture            a.png\n"), std::string::npos) << run.out;
+}
+
+TEST(CliRun, GoesOnFromItsOwnRunInOneCommand) {
+  const fs::path folder = test_folder();
+  fs::create_directory(folder / "rippled");
+  write_file(folder / "rippled/line.toml", read_file(folder / "line.toml"));
+  write_file(folder / "rippled/scene.toml", read_file(folder / "scene.toml") +
+                                                "[bed.surface]\nkind = \"ripples\"\namplitude = 0.002\n"
+                                                "wavelength = 0.05\n");
+  ASSERT_EQ(run_program({"run", "rippled/scene.toml", "-o", "a.h5"}, folder).exit_code, 0);
+  // The run file is in this folder, not beside the scene.
+  const ProgramResult next = run_program({"run", "rippled/scene.toml", "--set", "bed.surface.kind=file",
+                                          "--set", "bed.surface.file=a.h5", "-o", "b.h5"},
+                                         folder);
+  ASSERT_EQ(next.exit_code, 0) << next.err;
+  EXPECT_NE(next.err.find("rippled/scene.toml: bed.surface.amplitude, bed.surface.wavelength are left out, "
+                          "because they apply only where bed.surface.kind is noise or ripples"),
+            std::string::npos)
+      << next.err;
+  EXPECT_TRUE((RunFile(folder / "b.h5").initial() == RunFile(folder / "a.h5").final()).all());
+  // Its own scene has what was read.
+  EXPECT_EQ(run_program({"info", "--scene", "b.h5"}, folder).out.find("amplitude"), std::string::npos);
+  const ProgramResult bare = run_program({"run", "scene.toml", "--unset", "stroke", "-o", "c.h5"}, folder);
+  EXPECT_EQ(bare.exit_code, 0) << bare.err;
+  EXPECT_FALSE(RunFile(folder / "c.h5").has_trace());
+  const ProgramResult wrong = run_program({"run", "scene.toml", "--unset", "strike"}, folder);
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("--unset strike: scene.toml has no such key"), std::string::npos) << wrong.err;
 }
 
 TEST(CliRun, JsonIsOneObjectWithTheDesignsNames) {

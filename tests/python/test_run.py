@@ -187,12 +187,26 @@ def test_xarray_is_what_it_makes_of_the_file(tmp_path):
     ({"bed.cells": [100, 61]}, "bed.cells"),
     ({"tool.radius": float("nan")}, "tool.radius"),
     ({"tool.radius": "wide"}, "tool.radius"),
-    ({"tool.radius": None}, "not a value for a scene"),
+    ({"tool.radius": {1, 2}}, "not a value for a scene"),
+    ({"tool.radus": None}, "no such key"),
+    ({"force.law": "rft", "force.k_s": 3.0}, "applies only where force.law is paper"),
 ])
 def test_wrong_settings_are_told(small, line, change, sentence):
     with pytest.raises(sandstroke.InputError, match=sentence) as told:
         sandstroke.run(small, line, settings=change)
     assert isinstance(told.value, ValueError) and "--set" not in str(told.value)
+
+
+def test_settings_replace_what_a_scene_sets_for_another_choice(tmp_path):
+    scene = {"bed": {"size": [0.3, 0.18], "cells": [100, 60]}, "force": {"k_s": 500.0}}
+    with pytest.warns(UserWarning, match="force.k_s is left out, because it applies only where force.law is paper"):
+        assert sandstroke.Scene(scene, {"force.law": "rft"})["force.law"] == "rft"
+    (tmp_path / "scene.toml").write_text("[force]\nk_s = 500\n")
+    with pytest.warns(UserWarning, match="force.k_s is left out"):
+        sandstroke.Scene(tmp_path / "scene.toml", {"force.law": "archimedes"})
+    assert sandstroke.Scene(scene, {"force.k_s": None})["force.k_s"] == 1000.0
+    with pytest.warns(UserWarning, match="force.k_s"):
+        sandstroke.Scene(sandstroke.Scene(scene), {"force.law": "rft"})
 
 
 @pytest.mark.parametrize("stroke, sentence", [

@@ -47,24 +47,28 @@ def _flat(settings: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
 
 
 def _overrides(*settings: Mapping[str, Any] | None) -> list[str]:
-    return [f"{key}={_toml(value)}" for some in settings if some for key, value in _flat(some).items()]
+    flat = [item for some in settings if some for item in _flat(some).items()]
+    unset = [f"!{key}" for key, value in flat if value is None]
+    return unset + [f"{key}={_toml(value)}" for key, value in flat if value is not None]
 
 
 class Scene:
     """All settings of a run: a TOML file or text of several lines, or a mapping such as {"bed": {"cells": [300, 200]}}.
 
-    settings: other values for keys, as {"relaxation.talus_angle": 34}. `sandstroke help scene` lists the keys.
+    settings: other values for keys, as {"relaxation.talus_angle": 34}; None takes a key or a section out. A setting that
+    makes another choice, as {"tool.shape": "plate"}, leaves out what the scene sets for the old one, and a UserWarning
+    says so. `sandstroke help scene` lists the keys.
     Files in a mapping or text are relative to the current folder. scene["relaxation.talus_angle"] is a value, in the
     text's own types.
     """
 
     def __init__(self, scene: SceneLike = {}, settings: Mapping[str, Any] | None = None) -> None:
         if isinstance(scene, Scene):
-            self._here = _core._scene_of_text(scene.text, scene._here.folder, _overrides(settings))
+            self._here = _core._scene_of_text(scene.text, scene._here.folder, [], _overrides(settings))
         elif isinstance(scene, Mapping):
-            self._here = _core._scene_of_text("", os.getcwd(), _overrides(_flat(scene), settings))
+            self._here = _core._scene_of_text("", os.getcwd(), _overrides(scene), _overrides(settings))
         elif isinstance(scene, str) and "\n" in scene:
-            self._here = _core._scene_of_text(scene, os.getcwd(), _overrides(settings))
+            self._here = _core._scene_of_text(scene, os.getcwd(), [], _overrides(settings))
         elif isinstance(scene, (str, os.PathLike)):
             self._here = _core._scene_of_file(os.fspath(scene), _overrides(settings))
         else:
@@ -103,7 +107,7 @@ class Scene:
 
 
 def _scene_again(text: str, folder: str) -> Scene:
-    return Scene._of(_core._scene_of_text(text, folder, []))
+    return Scene._of(_core._scene_of_text(text, folder, [], []))
 
 
 Laws = Mapping[str, Callable[..., Any]]
