@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/input_file.h"
-#include "core/log.h"
+#include "core/warning.h"
 #include "haptics/stroke_script.h"
 #include "import/import_stroke.h"
 #include "io/input_kind.h"
@@ -101,7 +101,7 @@ Stroke load_stroke(const std::filesystem::path& path, const ForceSettings& force
     if (path.extension() == ".toml") return trace_script(read_stroke_script(path), force);
     ImportedStroke imported = import_stroke(path, table);
     spdlog::info("{}: {}", samples_name(path), imported.description);
-    for (const std::string& warning : imported.warnings) warn_if_any(warning);
+    for (const std::string& warning : imported.warnings) warn({WarningCode::stroke_import, warning});
     imported.stroke.source = samples_name(path.filename());
     return std::move(imported.stroke);
   });

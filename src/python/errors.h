@@ -5,14 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "core/warning.h"
+
 namespace sandstroke {
 
-/// Adds Error, InputError (a ValueError), UnstableError (an ArithmeticError) and FileError (an OSError) to
-/// the module. Their sentences are the program's error sentences.
+/// Adds Error, InputError (a ValueError), UnstableError (an ArithmeticError), FileError (an OSError) and
+/// ResultWarning (a UserWarning) to the module. Their sentences are the program's error sentences.
 void add_errors(pybind11::module_& module);
 
 /// Collects the warnings that this thread logs while it lives. give() makes Python warnings of them, so that
-/// none is raised while the interpreter lock is released.
+/// none is raised while the interpreter lock is released: a ResultWarning where there is a code.
 class Warnings {
  public:
   Warnings();
@@ -24,6 +26,7 @@ class Warnings {
   void give();
 
  private:
+  WarningList coded_;
   std::vector<std::string> sentences_;
   std::vector<std::string>* before_;
 };

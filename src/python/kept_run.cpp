@@ -71,8 +71,11 @@ std::shared_ptr<KeptRun> kept_run(const SceneHere& scene, std::optional<Stroke> 
   Warnings warnings;
   {
     const py::gil_scoped_release let_go;
-    const RunResult result = run_scene(scene.scene, output, options);
-    warn_of_run(result, run->scene.scene);
+    RunResult result = run_scene(scene.scene, output, options);
+    for (const Warning& warning : warnings_of_run(result, run->scene.scene)) {
+      warn(warning);
+      result.warnings.push_back(warning);
+    }
     run->summary = run_summary(result, run->scene.scene, run->path);
   }
   warnings.give();

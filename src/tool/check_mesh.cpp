@@ -1,6 +1,6 @@
 #include "tool/check_mesh.h"
 
-#include <spdlog/spdlog.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/warning.h"
 
 namespace sandstroke {
 namespace {
@@ -109,7 +110,7 @@ TriangleMesh checked_mesh(const TriangleMesh& mesh, const std::string& name) {
         "{}: encloses {:.3g} m^3, which is too little to displace sand; use a solid, or a larger tool.scale",
         name, volume);
   if (volume < 0.0) {
-    spdlog::warn("{}: is inside out; its triangles are turned over", name);
+    warn({WarningCode::tool_mesh, fmt::format("{}: is inside out; its triangles are turned over", name)});
     for (auto& corners : checked.triangles) std::swap(corners[1], corners[2]);
   }
   return checked;

@@ -17,6 +17,7 @@
 #include "io/run_file.h"
 #include "io/stroke_file.h"
 #include "sanitized.h"
+#include "test_folder.h"
 
 namespace sandstroke {
 namespace {
@@ -61,6 +62,44 @@ TEST(CliRun, GoesOnFromItsOwnRunInOneCommand) {
   const ProgramResult wrong = run_program({"run", "scene.toml", "--unset", "strike"}, folder);
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_NE(wrong.err.find("--unset strike: scene.toml has no such key"), std::string::npos) << wrong.err;
+}
+
+TEST(CliRun, StrictEndsWithCode3WhereThereIsAWarningWhoseWordJsonGives) {
+  const fs::path folder = test_folder();
+  struct Doubt {
+    std::vector<std::string> settings;
+    std::string word, section;
+  };
+  for (const Doubt& doubt : {Doubt{{"stroke.offset=[0, 0, 0.02]"}, "nothing-touched", "stroke"},
+                             Doubt{{"relaxation.max_passes=1"}, "not-at-rest", "relaxation"},
+                             Doubt{{"force.law=rft", "force.friction_angle=50"}, "force-theory", "force"},
+                             Doubt{{"stroke.offset=[0, 0, -0.5]"}, "stroke-deep", "stroke"}}) {
+    std::vector<std::string> arguments = {"run", "scene.toml", "--json"};
+    for (const std::string& setting : doubt.settings) {
+      arguments.emplace_back("--set");
+      arguments.push_back(setting);
+    }
+    const nlohmann::json json = nlohmann::json::parse(run_program(arguments, folder).out);
+    const auto found = std::find_if(json["warnings"].begin(), json["warnings"].end(),
+                                    [&](const nlohmann::json& one) { return one["code"] == doubt.word; });
+    ASSERT_NE(found, json["warnings"].end()) << json["warnings"];
+    EXPECT_EQ((*found)["section"], doubt.section);
+    arguments.emplace_back("--strict");
+    const ProgramResult strict = run_program(arguments, folder);
+    EXPECT_EQ(strict.exit_code, 3);
+    EXPECT_NE(strict.err.find(doubt.word + " ([" + doubt.section + "])"), std::string::npos) << strict.err;
+    EXPECT_NE(strict.err.find((*found)["text"].get<std::string>()), std::string::npos) << strict.err;
+  }
+  const ProgramResult fine =
+      run_program({"run", "scene.toml", "--json", "--strict", "--set", "model.preset=accurate"}, folder);
+  EXPECT_EQ(fine.exit_code, 0) << fine.err;
+  EXPECT_TRUE(nlohmann::json::parse(fine.out)["warnings"].empty()) << fine.out;
+  // What was left out makes no result doubtful.
+  EXPECT_EQ(run_program({"run", "scene.toml", "--strict", "--set", "model.preset=accurate", "--set",
+                         "device.model=dynamic", "--set", "device.delay=1", "--unset", "view"},
+                        folder)
+                .exit_code,
+            0);
 }
 
 TEST(CliRun, JsonIsOneObjectWithTheDesignsNames) {

@@ -259,6 +259,14 @@ def test_what_the_command_warns_of_is_a_python_warning(small, line):
         assert not sandstroke.run(small, line, settings={"relaxation.max_passes": 3}).summary["converged"]
 
 
+def test_warnings_of_a_result_have_a_code(small, line):
+    with pytest.warns(sandstroke.ResultWarning) as told:
+        summary = sandstroke.run(small, line, settings={"relaxation.max_passes": 3}).summary
+    assert {"not-at-rest"} <= {warning.message.code for warning in told}
+    assert [w["code"] for w in summary["warnings"]] == [w.message.code for w in told]
+    assert summary["warnings"][-1]["section"] == "relaxation"
+
+
 def test_other_threads_run_meanwhile_and_runs_in_threads_are_the_same(small, line):
     small["bed"]["cells"] = [400, 240]  # so that they take a while
     one = sandstroke.run(small, line, threads=1)
