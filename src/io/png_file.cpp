@@ -44,6 +44,10 @@ class PngReader {
   int width() const { return static_cast<int>(png_get_image_width(png_, info_)); }
   int height() const { return static_cast<int>(png_get_image_height(png_, info_)); }
   int bit_depth() const { return png_get_bit_depth(png_, info_); }
+  bool has_alpha() const {
+    return (png_get_color_type(png_, info_) & PNG_COLOR_MASK_ALPHA) ||
+           png_get_valid(png_, info_, PNG_INFO_tRNS);
+  }
   bool gray() const { return png_get_color_type(png_, info_) == PNG_COLOR_TYPE_GRAY; }
 
   /// The text of a keyword before the pixels; empty if there is none.
@@ -62,13 +66,14 @@ class PngReader {
                         name_, width(), height(), largest_png_side);
   }
 
-  /// Pixels of `pixel_bytes` each, rows from the top: 3 = 8-bit RGB, 2 = 16-bit gray as stored (big-endian).
+  /// Pixels of `pixel_bytes` each, rows from the top: 3 = 8-bit RGB, 4 = with alpha, which the file must
+  /// have, 2 = 16-bit gray as stored (big-endian).
   std::vector<png_byte> pixels(int pixel_bytes) {
     const std::size_t row_bytes = static_cast<std::size_t>(width()) * pixel_bytes;
     std::vector<png_byte> bytes(row_bytes * height());
     std::vector<png_bytep> rows(height());
     for (std::size_t row = 0; row < rows.size(); ++row) rows[row] = bytes.data() + row * row_bytes;
-    if (!read_rows(rows.data(), pixel_bytes == 3)) throw_damaged();
+    if (!read_rows(rows.data(), pixel_bytes >= 3, pixel_bytes == 4)) throw_damaged();
     return bytes;
   }
 
@@ -103,12 +108,12 @@ class PngReader {
     return true;
   }
 
-  bool read_rows(png_bytepp rows, bool as_rgb) {
+  bool read_rows(png_bytepp rows, bool as_rgb, bool with_alpha) {
     if (setjmp(png_jmpbuf(png_))) return false;
     if (as_rgb) {
       png_set_expand(png_);
       png_set_scale_16(png_);
-      png_set_strip_alpha(png_);
+      if (!with_alpha) png_set_strip_alpha(png_);
       png_set_gray_to_rgb(png_);
     }
     png_set_interlace_handling(png_);
@@ -274,7 +279,17 @@ Image read_png(const fs::path& path) {
   Image image;
   image.width = png.width();
   image.height = png.height();
-  image.rgb = png.pixels(3);
+  if (!png.has_alpha()) {
+    image.rgb = png.pixels(3);
+    return image;
+  }
+  const std::vector<png_byte> bytes = png.pixels(4);
+  image.rgb.reserve(bytes.size() / 4 * 3);
+  image.alpha.reserve(bytes.size() / 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 4) {
+    image.rgb.insert(image.rgb.end(), &bytes[i], &bytes[i] + 3);
+    image.alpha.push_back(bytes[i + 3]);
+  }
   return image;
 }
 

@@ -48,7 +48,7 @@ void check_picture_name(const std::filesystem::path& path);
 /// Writes what encode_png() gives by way of PATH.part. Error: io.
 void write_png(const std::filesystem::path& path, const Image& image);
 
-/// Reads any PNG as 8-bit RGB: gray and palette are expanded, 16 bits rounded to 8, transparency is dropped.
+/// Reads any PNG as 8-bit RGB, with alpha if it has any: gray and palette are expanded, 16 bits rounded to 8.
 /// Error: io, if it cannot be opened; input, if it is no PNG, damaged or larger than largest_png_side.
 Image read_png(const std::filesystem::path& path);
 

@@ -110,6 +110,8 @@ TEST_F(PngFile, ReadsGrayAndTransparentPicturesAsRgb) {
   EXPECT_EQ(gray.rgb, (std::vector<std::uint8_t>{10, 10, 10, 200, 200, 200}));
   const Image clear = read_png(raw_png("alpha.png", 1, 1, 8, PNG_COLOR_TYPE_RGB_ALPHA, {1, 2, 3, 128}));
   EXPECT_EQ(clear.rgb, (std::vector<std::uint8_t>{1, 2, 3}));
+  EXPECT_EQ(clear.alpha, std::vector<std::uint8_t>{128});
+  EXPECT_TRUE(gray.alpha.empty());
   const Image deep = read_png(raw_png("deep.png", 2, 1, 16, PNG_COLOR_TYPE_GRAY, {0xff, 0xff, 0x80, 0x80}));
   EXPECT_EQ(deep.rgb, (std::vector<std::uint8_t>{255, 255, 255, 128, 128, 128}));
 }
