@@ -169,7 +169,9 @@ class AxesCheck {
     const auto by_axis = [&](const std::string& kind) { return kind == axis.key || !axis_of(kind); };
     const auto by_kind = [&](const std::string& kind) { return kind == axis.key; };
     note(axis.key + " = " + axis.label(0), first_.left_out, by_kind);
-    for (std::size_t value = 0; value < axis.values.size(); ++value) {
+    constexpr std::size_t most_of_range = 100;  // what holds for these holds between them
+    const std::size_t values = axis.values.size();
+    for (const std::size_t value : spread_indices(values, axis.of_range ? most_of_range : values)) {
       if (value == 0 && used == firsts_) continue;
       const TriedScene tried = try_scene(toml_, plan_, with(i, value, used), tried_key);
       if (used != firsts_) continue;  // that of another axis is noted there

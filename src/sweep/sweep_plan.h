@@ -33,9 +33,9 @@ struct SweepPlan {
   std::filesystem::path scene_folder() const { return scene.parent_path(); }
 };
 
-/// Reads a plan, and checks that all files exist, that each value of each axis works with the first values of
-/// the others (or, where it does not apply with them, with others), and that each setting applies somewhere.
-/// Error: input, naming file, line, key and remedy; io.
+/// Reads a plan, and checks that all files exist, that each value of each axis (100 of a range) works with
+/// the first values of the others (or, where it does not apply with them, with others), and that each setting
+/// applies somewhere. Error: input, naming file, line, key and remedy; io.
 SweepPlan load_plan(const std::filesystem::path& path);
 
 }  // namespace sandstroke

@@ -165,6 +165,26 @@ TEST_F(CliSweep, ADryRunCountsAndLeavesNothing) {
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
+/// It cannot look at all ten million points, and says the same as if it had.
+TEST_F(CliSweep, ADryRunOfTenMillionPointsCountsThemByTheirAxes) {
+  plan("relaxation.talus_angle = { from = 20, to = 40, count = 1000 }\n"
+       "force.k_s = { from = 500, to = 1500, count = 10000 }\n",
+       "max_points = 10000000\n");
+  const ProgramResult result = sweep({"plan.toml", "--dry-run"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("10000000 points need about 1000 simulations"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("\n...\n"), std::string::npos) << result.out;
+  const Json counted = json({"plan.toml", "--dry-run"});
+  EXPECT_EQ(counted["points"], 10000000);
+  EXPECT_EQ(counted["simulations"], 1000);
+  EXPECT_EQ(counted["looked_at"], 1000);
+  // The ends of a range are checked.
+  plan("relaxation.talus_angle = { from = 20, to = 100, count = 1000 }\n");
+  const ProgramResult wrong = sweep({"plan.toml", "--dry-run"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("axes.relaxation.talus_angle cannot be"), std::string::npos) << wrong.err;
+}
+
 TEST_F(CliSweep, FailingPointsAreExitCodeThreeAndStatusSaysWhy) {
   plan("device.scale = [1, 30]\n");
   const ProgramResult result = sweep({"plan.toml", "-o", "out"});
