@@ -31,7 +31,7 @@ void check(const Scene& scene, const TomlReader& toml) {
 
 enum class Written { by_a_user, by_a_run };
 
-std::map<std::string, std::string> scene_conditions() {
+const std::map<std::string, std::string>& scene_conditions() {
   static const std::map<std::string, std::string> known = conditions(all_scene_keys());
   return known;
 }
@@ -175,6 +175,8 @@ SceneFile combined_scene(const SceneText& text, const std::vector<std::string>& 
   check(scene, toml);
   return scene;
 }
+
+bool applies_conditionally(const std::string& key) { return scene_conditions().contains(key); }
 
 SceneFile stored_scene(const std::string& text, const std::string& name) {
   const TomlReader toml = TomlReader::from_text(text, name);

@@ -45,6 +45,9 @@ inline SceneFile scene_from_text(const std::string& text, const std::string& nam
 SceneFile combined_scene(const SceneText& text, const std::vector<std::string>& overrides,
                          std::vector<LeftOut>& left_out);
 
+/// True if the key applies only with some choices of others, as tool.width with tool.shape = "plate".
+bool applies_conditionally(const std::string& key);
+
 /// The scene that an earlier run stored, for looking at its results. It passes over the old key
 /// relaxation.travel, a way in cells.
 SceneFile stored_scene(const std::string& text, const std::string& name);

@@ -163,6 +163,7 @@ SweepManifest Sweep::manifest() const {
   }
   m.version = version;
   m.commit = commit;
+  m.plan = fs::absolute(plan_.file).lexically_normal().string();
   return m;
 }
 

@@ -11,8 +11,8 @@ struct SweepAxis {
   std::string key;                  ///< the setting's dotted name in a scene
   std::string unit;                 ///< the setting's unit; empty: none
   bool logarithmic = false;         ///< its values are spread evenly on a logarithmic scale
-  bool of_range = false;            ///< its values come from a range, not from a list
   std::vector<std::string> values;  ///< TOML literals
+  bool of_range = false;            ///< its values come from a range, not from a list
 
   /// True if every value is a number.
   bool numeric() const;
