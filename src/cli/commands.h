@@ -22,6 +22,9 @@ CLI::Validator number_within(Range range);
 /// --set.
 CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrides);
 
+/// The option that gives an override: "--set key=value" or "--unset key".
+std::string scene_option(const std::string& override_text);
+
 /// The files that shells offer for a stroke: scripts, recordings, and all that `stroke convert` reads.
 inline constexpr const char* stroke_file_type = "FILE.toml|.h5|.csv|.txt|.thr|.gcode|.mat|.db3";
 

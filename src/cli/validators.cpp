@@ -57,6 +57,11 @@ CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrid
   return set;
 }
 
+std::string scene_option(const std::string& override_text) {
+  const bool unset = override_text.starts_with('!') && override_text.find('=') == std::string::npos;
+  return unset ? "--unset " + override_text.substr(1) : "--set " + override_text;
+}
+
 std::string stroke_override(const std::string& file) {
   if (file == "-") return "stroke.file=-";
   return "stroke.file=" + toml_string(std::filesystem::absolute(file).string());

@@ -58,7 +58,8 @@ PluginLawSettings with_plugin(PluginLawSettings own, const std::filesystem::path
 }
 
 void check_plugin_force(const Scene& scene, const std::filesystem::path& stroke_file) {
-  if (scene.plugin_laws.force.empty() || !stroke_depends_on_force(stroke_file)) return;
+  if (scene.plugin_laws.force.empty() || is_pipe(stroke_file) || !stroke_depends_on_force(stroke_file))
+    return;
   throw_input_error(
       "{}: the script gives forces, but only the paper's law can turn forces into depths; give depths, or "
       "leave out model.force = \"{}\"",

@@ -68,7 +68,7 @@ Stroke read_stroke_file(const std::filesystem::path& path) {
 }
 
 bool is_recorded(const std::filesystem::path& path) {
-  if (path == "-") return false;  // it can be read only once
+  if (path == "-" || is_pipe(path)) return false;  // it can be read only once
   check_readable(path);
   return path.extension() == ".h5" || begins_with(path, hdf5_signature);
 }

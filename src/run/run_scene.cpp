@@ -88,7 +88,7 @@ Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std:
     warn({WarningCode::stroke_cut_off,
           fmt::format("{}: was cut off while it was recorded; the run ends where the stroke ends", name)});
   // A recorded stroke's bytes also tell which build wrote them, so its content is hashed instead.
-  hash = is_script(path) ? file_hash(path) : content_hash(loaded);
+  hash = is_script(path) && !is_pipe(path) ? file_hash(path) : content_hash(loaded);
   return placed_samples(scene, loaded, name, is_script(path));
 }
 

@@ -102,6 +102,56 @@ TEST(CliRun, StrictEndsWithCode3WhereThereIsAWarningWhoseWordJsonGives) {
             0);
 }
 
+/// Pipes without an end to wait for: each has a writer that gives it a file.
+TEST(CliRun, TakesPipesInPlaceOfFilesOrSaysThatItCannot) {
+  const fs::path folder = test_folder();
+  std::string table = "time [s],x [m],y [m],z [m]\n";
+  for (int i = 0; i <= 200; ++i) table += fmt::format("{},{},0,-0.004\n", 0.002 * i, 0.0005 * i - 0.05);
+  write_file(folder / "table.csv", table);
+  ASSERT_EQ(run_program({"run", "scene.toml", "--stroke", "table.csv", "-o", "plain.h5"}, folder).exit_code,
+            0);
+  const RunFile plain(folder / "plain.h5");
+  const auto with_pipe = [&](const std::string& name, const std::string& content,
+                             std::vector<std::string> arguments) {
+    const fs::path pipe = folder / name;
+    fs::remove(pipe);
+    EXPECT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    std::jthread writer([&] {
+      const int end = open(pipe.c_str(), O_WRONLY | O_CLOEXEC);
+      for (std::size_t at = 0; end >= 0 && at < content.size();) {
+        const ssize_t count = write(end, content.data() + at, content.size() - at);
+        if (count <= 0) break;
+        at += static_cast<std::size_t>(count);
+      }
+      if (end >= 0) close(end);
+    });
+    const ProgramResult result = run_program(arguments, folder);
+    close(open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));  // so that a writer whom nobody heard ends
+    return result;
+  };
+  for (const std::string name : {"pipe", "pipe.csv"}) {
+    const ProgramResult run =
+        with_pipe(name, table, {"run", "scene.toml", "--stroke", name, "-o", "piped.h5"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_TRUE((RunFile(folder / "piped.h5").final() == plain.final()).all());
+  }
+  ProgramResult run = with_pipe("script.toml", read_file(folder / "line.toml"),
+                                {"run", "scene.toml", "--stroke", "script.toml", "-o", "piped.h5"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  run = with_pipe("scene-pipe", read_file(folder / "scene.toml"), {"run", "scene-pipe", "-o", "piped.h5"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  for (const std::vector<std::string>& settings :
+       std::vector<std::vector<std::string>>{{"bed.surface.kind=file", "bed.surface.file=p.h5"},
+                                             {"tool.shape=mesh", "tool.file=p.h5"},
+                                             {"model.plugin=p.h5", "model.force=f"}}) {
+    std::vector<std::string> arguments = {"run", "scene.toml", "--set", "displacement.deposit=outward"};
+    for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
+    run = with_pipe("p.h5", "", arguments);
+    EXPECT_TRUE(run.exit_code == 2 || run.exit_code == 4) << run.exit_code;
+    EXPECT_NE(run.err.find("p.h5: "), std::string::npos) << run.err;
+  }
+}
+
 TEST(CliRun, JsonIsOneObjectWithTheDesignsNames) {
   const fs::path folder = test_folder();
   const ProgramResult run = run_program({"run", "scene.toml", "--json", "--threads", "2"}, folder);
