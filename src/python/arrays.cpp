@@ -52,6 +52,12 @@ void take(const char* name, const py::object& given, std::vector<Number>& column
 
 }  // namespace
 
+SharedGrid::SharedGrid(const HeightGrid& heights) : grid(std::make_shared<HeightGrid>(heights)) {
+  const py::capsule owner(new std::shared_ptr<HeightGrid>(grid),
+                          [](void* kept) { delete static_cast<std::shared_ptr<HeightGrid>*>(kept); });
+  array = py::array_t<double>({grid->rows(), grid->cols()}, grid->data(), owner);
+}
+
 py::array_t<double> copy_of(const HeightGrid& grid) {
   py::array_t<double> array({grid.rows(), grid.cols()});
   std::copy(grid.data(), grid.data() + grid.size(), array.mutable_data());

@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 
 #include <Eigen/Core>
+#include <memory>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -35,6 +36,14 @@ pybind11::array column_view(std::vector<Record>& records, const Of& of, pybind11
   else
     return view_of(first.data(), {rows, first.size()}, {step, pybind11::ssize_t{sizeof(double)}}, owner);
 }
+
+/// A writable array over a copy of the grid, and the copy itself. Users may reshape or keep the array: the
+/// numbers stay where they are, as long as either lives.
+struct SharedGrid {
+  explicit SharedGrid(const HeightGrid& grid);
+  std::shared_ptr<HeightGrid> grid;
+  pybind11::array_t<double> array;
+};
 
 /// Copies a grid into an array of its own.
 pybind11::array_t<double> copy_of(const HeightGrid& grid);

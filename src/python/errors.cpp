@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "python/interpreter_lock.h"
 
 namespace sandstroke {
 namespace {
@@ -115,12 +116,13 @@ void Warnings::give() {
 }
 
 void SignalWatch::look() {
+  stay_if_leaving();
   constexpr double interval = 0.05;  // s
   using Seconds = std::chrono::duration<double>;
   const double now = Seconds(std::chrono::steady_clock::now().time_since_epoch()).count();
   if (now < next_) return;
   next_ = now + interval;
-  const py::gil_scoped_acquire gil;
+  const WithLock lock;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 

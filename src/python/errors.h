@@ -48,7 +48,7 @@ auto or_what_ended_it(const Work& work) {
 }
 
 /// Checks for Ctrl-C now and then during work without the interpreter lock. Throws KeyboardInterrupt as
-/// Python does.
+/// Python does. A daemon thread stays here when the interpreter ends.
 class SignalWatch {
  public:
   void look();

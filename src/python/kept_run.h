@@ -21,7 +21,7 @@ struct SceneHere {
 struct KeptRun {
   SceneHere scene;
   std::string path;                ///< of its file; empty: none
-  nlohmann::ordered_json summary;  ///< as `run --json`; null for a file
+  nlohmann::ordered_json summary;  ///< as `run --json`; of a file: what it tells
   BedGeometry bed{1, 1, 1.0};
   HeightGrid initial, final;  ///< m
   TraceContent content;

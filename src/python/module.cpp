@@ -14,6 +14,7 @@
 #include "io/scene_toml.h"
 #include "python/arrays.h"
 #include "python/errors.h"
+#include "python/interpreter_lock.h"
 #include "python/kept_run.h"
 #include "python/module_parts.h"
 #include "python/plugin_laws.h"
@@ -97,7 +98,7 @@ py::array picture(const SceneHere& here, const py::object& heights, const py::ob
     throw_input_error("start: must have as many rows and columns as heights");
   Image image;
   {
-    const py::gil_scoped_release let_go;
+    const WithoutLock let_go;
     RenderSubject subject;
     subject.view = scene.view;
     subject.start = start_heights(before);
@@ -127,7 +128,7 @@ py::array picture(const SceneHere& here, const py::object& heights, const py::ob
 /// Compares two runs and returns JSON text.
 std::string comparison(const std::filesystem::path& golden, const std::filesystem::path& run,
                        const GivenTolerances& given, bool coarsen) {
-  const py::gil_scoped_release let_go;
+  const WithoutLock let_go;
   for (const auto& [name, value] : given) {
     bool known = false;
     for (const ToleranceKey& key : tolerance_keys) known |= key.name == name;
@@ -167,6 +168,7 @@ PYBIND11_MODULE(_sandstroke, module) {
   ignore_write_signals();
   module.attr("version") = version;
   add_errors(module);
+  wait_for_threads_at_exit();
   py::class_<SceneHere>(module, "_Scene")
       .def_property_readonly("text", [](const SceneHere& here) { return scene_text(here.scene); })
       .def_property_readonly("folder", [](const SceneHere& here) { return here.folder; });

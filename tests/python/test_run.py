@@ -361,3 +361,27 @@ def test_what_the_page_of_the_module_shows_works(tmp_path):
     done = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "furrow.png").stat().st_size > 1000
+
+
+@pytest.mark.parametrize("down", [True, 1, 0.5, 256, -1, np.True_])
+@pytest.mark.parametrize("up", [False, 0, 0.0])
+def test_pen_down_is_any_truth(small, line, down, up):
+    states = [up] * 100 + [down] * (len(line) - 100)
+    stroke = {"time": line[:, 0], "position": line[:, 1:], "pen_down": states}
+    plain = {**stroke, "pen_down": np.array([bool(state) for state in states])}
+    assert np.array_equal(sandstroke.run(small, stroke).final, sandstroke.run(small, plain).final)
+
+
+@pytest.mark.parametrize("state", [np.nan, "up"])
+def test_pen_down_that_is_no_truth_is_told(small, line, state):
+    stroke = {"time": line[:, 0], "position": line[:, 1:], "pen_down": [state] * len(line)}
+    with pytest.raises(sandstroke.InputError, match="pen_down must be true or false"):
+        sandstroke.run(small, stroke)
+
+
+def test_a_run_from_a_file_has_the_summary_that_it_tells(tmp_path, small, line):
+    made = sandstroke.run(small, line, output=tmp_path / "run.h5").summary
+    read = sandstroke.read(tmp_path / "run.h5").summary
+    assert {"max_force", "max_depth", "contact_ticks", "moved_volume", "passes"} <= read.keys() <= made.keys()
+    for name, value in read.items():
+        assert value == pytest.approx(made[name], rel=1e-9, abs=1e-15) if isinstance(value, float) else value == made[name], name

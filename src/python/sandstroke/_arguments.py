@@ -128,12 +128,20 @@ A run fails if a law makes or loses sand, or returns NaN or infinity.
 IN_ARRAYS = "<arrays>"  # the file name in a scene of a stroke that is in no file
 
 
+def pen_states(pen_down: Any) -> np.ndarray:
+    """1 where a value counts as true, as in an `if`, else 0."""
+    states = np.asarray(pen_down)
+    if states.dtype.kind not in "biufO" or (states.dtype.kind == "f" and np.isnan(states).any()):
+        raise _core.InputError("stroke: pen_down must be true or false, or numbers; 0 is false")
+    return states.astype(bool).astype(np.uint8)
+
+
 def stroke_columns(stroke: Any) -> dict[str, Any]:
     """The columns of a stroke: an array of time [s], x, y, z [m], a table with these names, or a mapping of arrays."""
     if isinstance(stroke, Mapping):
         columns = dict(stroke)
         if "pen_down" in columns:
-            columns["contact"] = np.asarray(columns.pop("pen_down"), dtype=np.uint8)
+            columns["contact"] = pen_states(columns.pop("pen_down"))
         return columns
     if hasattr(stroke, "columns"):  # a DataFrame; the order of its columns does not matter
         missing = [name for name in ("time", "x", "y", "z") if name not in stroke.columns]

@@ -73,7 +73,7 @@ class Run:
 
     @cached_property
     def summary(self) -> dict[str, Any]:
-        """The output of `sandstroke run --json`. Empty for a run read from a file."""
+        """The output of `sandstroke run --json`. Of a run that was read from a file: what the file tells of it."""
         return json.loads(self._kept.summary) or {}
 
     @property
