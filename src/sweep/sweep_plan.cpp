@@ -3,7 +3,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <functional>
 
 #include "core/error.h"
 #include "core/input_file.h"
@@ -95,7 +94,11 @@ class AxesCheck {
 
   /// Each value of each axis, and whether each setting applies somewhere.
   void check_all() {
-    note("every point", first_.left_out, [&](const std::string& kind) { return !axis_of(kind); });
+    std::vector<LeftOut> everywhere, at_first;  // by no axis, or by a preset that is one
+    for (const LeftOut& one : first_.left_out)
+      if (!axis_of(kind_of(one))) (where_used(one.key) ? at_first : everywhere).push_back(one);
+    note("every point", everywhere);
+    note("the first point", at_first);
     for (std::size_t i = 0; i < plan_.design.axes.size(); ++i) check_axis(i);
     for (const std::string& setting : plan_.settings)
       if (const std::string key = setting.substr(0, setting.find('=')); !first_.uses(key))
@@ -142,13 +145,8 @@ class AxesCheck {
     return one.condition.substr(0, one.condition.find(" is "));
   }
 
-  /// Notes what points leave out by those kinds that are `meant`.
-  void note(const std::string& points, const std::vector<LeftOut>& left_out,
-            const std::function<bool(const std::string& kind)>& meant) {
-    std::vector<LeftOut> noted;
-    for (const LeftOut& one : left_out)
-      if (meant(kind_of(one))) noted.push_back(one);
-    if (!noted.empty()) plan_.notes.push_back(points + ": " + left_out_text(noted));
+  void note(const std::string& points, const std::vector<LeftOut>& left_out) {
+    if (!left_out.empty()) plan_.notes.push_back(points + ": " + left_out_text(left_out));
   }
 
   void check_applies(const std::string& table, const std::string& setting, const std::string& key) const {
@@ -166,9 +164,10 @@ class AxesCheck {
     const std::vector<std::string> used = *where_used(axis.key);
     const std::string tried_key = axis.key == stroke_key ? "sweep.strokes" : "axes." + axis.key;
     axis.unit = setting_unit(try_scene(toml_, plan_, used, tried_key).scene, axis.key);
-    const auto by_axis = [&](const std::string& kind) { return kind == axis.key || !axis_of(kind); };
-    const auto by_kind = [&](const std::string& kind) { return kind == axis.key; };
-    note(axis.key + " = " + axis.label(0), first_.left_out, by_kind);
+    std::vector<LeftOut> at_first;
+    for (const LeftOut& one : first_.left_out)
+      if (kind_of(one) == axis.key) at_first.push_back(one);
+    note(axis.key + " = " + axis.label(0), at_first);
     constexpr std::size_t most_of_range = 100;  // what holds for these holds between them
     const std::size_t values = axis.values.size();
     for (const std::size_t value : spread_indices(values, axis.of_range ? most_of_range : values)) {
@@ -177,8 +176,8 @@ class AxesCheck {
       if (used != firsts_) continue;  // that of another axis is noted there
       std::vector<LeftOut> more;
       for (const LeftOut& one : tried.left_out)
-        if (kind_of(one) == axis.key || first_.uses(one.key)) more.push_back(one);
-      note(axis.key + " = " + axis.label(value), more, by_axis);
+        if (kind_of(one) == axis.key || (first_.uses(one.key) && !axis_of(kind_of(one)))) more.push_back(one);
+      note(axis.key + " = " + axis.label(value), more);
     }
   }
 
