@@ -24,6 +24,7 @@
 #include "record/felt_loop_text.h"
 #include "record/journal.h"
 #include "record/real_time.h"
+#include "sim/tool_fit.h"
 
 namespace sandstroke {
 namespace {
@@ -165,6 +166,7 @@ std::optional<SceneFile> felt_scene(const RecordArguments& arguments) {
           "unknown; remove it from the scene",
           arguments.felt_scene, key, name);
   scene.tool = with_mesh(scene.tool, fs::path(arguments.felt_scene).parent_path());
+  check_tool_fits(scene, arguments.felt_scene);
   return scene;
 }
 

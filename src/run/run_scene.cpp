@@ -30,6 +30,7 @@
 #include "measure/stroke_depth.h"
 #include "run/run_progress.h"
 #include "sim/device_force.h"
+#include "sim/tool_fit.h"
 
 namespace sandstroke {
 namespace {
@@ -98,6 +99,7 @@ std::string scene_file_entry(const std::filesystem::path& scene_file, const std:
 Scene with_files(Scene scene, const std::filesystem::path& folder) {
   scene.bed = with_own_range(scene.bed, folder);  // so that a run file contains it
   scene.tool = with_mesh(scene.tool, folder);
+  if (scene.tool.mesh && scene.stroke) check_tool_fits(scene, (folder / scene.tool.file).string());
   scene.plugin_laws = with_plugin(scene.plugin_laws, folder);
   return scene;
 }
@@ -140,9 +142,11 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
   HeightField bed = options.surface ? *options.surface : load_surface(scene.bed, options.scene_folder);
   std::optional<HeightField> start;
   if (stroke || options.second) start = bed;
+  if (stroke) check_tool_in_stroke(scene, bed, *stroke, stroke_name);
   Simulation simulation(scene, std::move(bed), stroke);
   if (stroke) {
     warn_if_any(depth_warning(scene, simulation.bed(), *stroke, stroke_name));
+    warn_if_any(coarse_tool_warning(scene, deepest_point(scene, simulation.bed(), *stroke).depth));
     if (!output.empty())
       check_disk(output, least_bytes(simulation),
                  "choose another place, free disk space, or store less: output.trace = false, fewer "

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/machine.h"
-#include "tool/tool_surface.h"
+#include "sim/tool_fit.h"
 
 namespace sandstroke {
 namespace {
@@ -259,7 +259,6 @@ void check_bed(const Scene& scene, const std::string& name) {
 }
 
 void check_tool(const Scene& scene, const std::string& name) {
-  const BedSettings& bed = scene.bed;
   const bool is_sphere = scene.tool.shape == ToolShape::sphere;
   if (!is_sphere && scene.plugin_laws.displacement.empty() && scene.displacement.deposit != Deposit::outward)
     throw_input_error(
@@ -268,20 +267,7 @@ void check_tool(const Scene& scene, const std::string& name) {
         name);
   if (scene.tool.shape == ToolShape::mesh && scene.tool.file.empty())
     throw_input_error("{}: tool.file is missing; name a mesh (.stl)", name);
-  const double reach = is_sphere ? filter::reach(scene.tool.radius) : tool_reach(scene.tool);
-  if (!is_sphere && scene.stroke && 2.0 * reach > std::min(bed.width, bed.depth))
-    throw_input_error(
-        "{}: the tool is {:.3g} m wide and does not fit the bed ({} m by {} m); take a smaller one", name,
-        2.0 * reach, bed.width, bed.depth);
-  if (is_sphere && scene.stroke && 2.0 * reach > std::min(bed.width, bed.depth))
-    throw_input_error(
-        "{}: tool.radius = {} m: the tool and its rampart ({:.3g} m) do not fit the bed ({} m by {} m); take "
-        "a smaller radius",
-        name, scene.tool.radius, 2.0 * reach, bed.width, bed.depth);
-  if (is_sphere && scene.stroke && scene.tool.radius < 0.5 * bed.cell_size())
-    throw_input_error(
-        "{}: tool.radius = {} m is less than half a cell ({} m); take more bed.cells or a larger tool", name,
-        scene.tool.radius, bed.cell_size());
+  if (scene.stroke) check_tool_fits(scene, name);
 }
 
 void check_device(const Scene& scene, const std::string& name) {

@@ -22,6 +22,7 @@
 #include "io/run_file.h"
 #include "io/scene_toml.h"
 #include "measure/stroke_depth.h"
+#include "sim/tool_fit.h"
 #include "sweep/point_runner.h"
 #include "tool/tool_surface.h"
 
@@ -153,6 +154,9 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
       scene.tool = inputs_.tool(scene.tool);
       scene.plugin_laws = inputs_.plugin_laws(scene.plugin_laws);
     }
+    const Scene& scene = scenes.front();  // tool, bed and stroke are those of all
+    if (scene.tool.mesh && stroke) check_tool_fits(scene, scene.tool.file);
+    if (stroke) check_tool_in_stroke(scene, *bed, stroke->stroke, scene.stroke->file);
   } catch (const Error& error) {
     if (is_of_the_machine(error)) throw;
     return refuse(error.what());
