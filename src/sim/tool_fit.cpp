@@ -20,7 +20,7 @@ namespace {
 constexpr double least_of_sphere = 2.0, least_of_others = 3.0;
 /// From here on [cells] a furrow is within a few percent.
 constexpr double fine = 10.0;
-constexpr double rounding = 1e-3;  // the corners of round shapes lie on the circle, their sides inside
+constexpr double of_corners = 1e-3;  // the corners of round shapes lie on the circle, their sides inside
 
 bool is_sphere(const Scene& scene) { return scene.tool.shape == ToolShape::sphere; }
 
@@ -42,7 +42,7 @@ const char* width_keys(ToolShape shape) {
 
 /// bed.cells in which a width [m] has so many cells.
 std::string cells_for(const BedSettings& bed, double width, double cells) {
-  const auto along = [&](double size) { return std::ceil(size * cells / width * (1.0 - rounding)); };
+  const auto along = [&](double size) { return std::ceil(size * cells / width * (1.0 - of_corners)); };
   return fmt::format("bed.cells = [{:.0f}, {:.0f}]", along(bed.width), along(bed.depth));
 }
 
@@ -70,7 +70,7 @@ void check_tool_fits(const Scene& scene, const std::string& name, double depth) 
   check_size(scene, name);
   const double least = is_sphere(scene) ? least_of_sphere : least_of_others;
   const double width = narrowest_width(scene.tool, depth), cells = width / scene.bed.cell_size();
-  if (!(cells < least * (1.0 - rounding))) return;
+  if (!(cells < least * (1.0 - of_corners))) return;
   const std::string where =
       std::isfinite(depth) && narrowest_width(scene.tool, std::numeric_limits<double>::infinity()) > width
           ? fmt::format(" up to its depth of {:.4g} m", depth)
@@ -94,7 +94,7 @@ double expected_furrow_error(ToolShape shape, double cells) {
 std::string coarse_tool_warning(const Scene& scene, double depth) {
   if (!is_known(scene) || !(depth > 0.0)) return "";
   const double width = narrowest_width(scene.tool, depth), cells = width / scene.bed.cell_size();
-  if (!(cells < fine * (1.0 - rounding))) return "";
+  if (!(cells < fine * (1.0 - of_corners))) return "";
   return fmt::format(
       "the tool is {:.3g} cells wide at its narrowest: its furrow may be off by up to {:.0f} % (bench), and "
       "by "
