@@ -59,7 +59,9 @@ void check_size(const Scene& scene, const std::string& name) {
       "{}: the tool is {:.3g} m wide and does not fit the bed ({} m by {} m); take a smaller one{}", name,
       2.0 * reach, bed.width, bed.depth,
       scene.tool.shape == ToolShape::mesh && scene.tool.scale == 1.0
-          ? ", or if the mesh is in millimetres, set tool.scale = 0.001"
+          ? fmt::format(
+                "; is the mesh in millimetres? Then set tool.scale = 0.001, which makes it {:.3g} mm wide",
+                2.0 * reach)
           : "");
 }
 
@@ -81,8 +83,11 @@ void check_tool_fits(const Scene& scene, const std::string& name, double depth) 
                       where, keys);
   throw_input_error(
       "{}: the tool is only {:.3g} cells wide at its narrowest{} ({:.4g} m), and a furrow needs {:g} cells; "
-      "take {} or more, or a larger {}",
-      name, cells, where, width, least, cells_for(scene.bed, width, least), keys);
+      "take {} or more, or a larger {}{}",
+      name, cells, where, width, least, cells_for(scene.bed, width, least), keys,
+      scene.tool.shape == ToolShape::mesh && scene.tool.scale < 1.0
+          ? fmt::format(" (is the mesh in metres? Then set tool.scale = 1; it is {:g})", scene.tool.scale)
+          : "");
 }
 
 double expected_furrow_error(ToolShape shape, double cells) {

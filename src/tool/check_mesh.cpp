@@ -53,8 +53,9 @@ double check_extent(const TriangleMesh& mesh, const std::string& name) {
   const double extent = box.sizes().maxCoeff();
   if (extent > largest_tool)
     throw_input_error(
-        "{}: is {:.4g} m large, too large for a tool; if the mesh is in millimetres, set tool.scale = 0.001, "
-        "otherwise a smaller scale",
+        "{}: is {:.4g} m large, too large for a tool; is the mesh in millimetres? Then set tool.scale = "
+        "0.001; "
+        "otherwise set a smaller scale",
         name, extent);
   const double away = box.exteriorDistance(Eigen::Vector3d(Eigen::Vector3d::Zero()));
   if (away > extent)

@@ -46,10 +46,12 @@ bool overlap(const Corners& a, const Corners& b, double tolerance) {
     return along && *along < tolerance;
   };
   // In one plane, as far as corners can tell, only lines in that plane part them.
-  const auto in_plane = [&](const Vector3d& corner) {
-    return std::abs(normal_a.dot(corner - a[0])) <= tolerance;
+  const auto in_plane = [&](const Corners& corners, const Vector3d& normal, const Vector3d& point) {
+    return std::all_of(corners.begin(), corners.end(), [&](const Vector3d& corner) {
+      return std::abs(normal.dot(corner - point)) <= tolerance;
+    });
   };
-  if (std::all_of(b.begin(), b.end(), in_plane)) {
+  if (in_plane(a, normal_b, b[0]) || in_plane(b, normal_a, a[0])) {
     for (const Vector3d& side : sides_a)
       if (parts(normal_a.cross(side))) return false;
     for (const Vector3d& side : sides_b)

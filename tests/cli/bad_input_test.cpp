@@ -54,6 +54,17 @@ const std::vector<Case> cases = {
     {"NegativeThreads", {"run", "scene.toml", "--threads", "-1"}, 2, {"threads"}, {}},
     {"MissingScene", {"run", "none.toml", "-o", "out.h5"}, 4, {"none.toml", "cannot be opened"}, {}},
     {"SceneIsAFolder", {"run", ".", "-o", "out.h5"}, 4, {"folder"}, {}},
+    scene(
+        "ThinPlate",
+        "[model]\npreset = \"accurate\"\n" + bed + "[tool]\nshape = \"plate\"\n[stroke]\nfile = \"s.toml\"\n",
+        {"2 cells wide at its narrowest (0.004 m)", "needs 3 cells", "bed.cells = [225, 150]",
+         "tool.thickness"}),
+    scene("ThinRake",
+          "[model]\npreset = \"accurate\"\n" + bed +
+              "[tool]\nshape = \"rake\"\nradius = 0.0005\n[stroke]\nfile = \"s.toml\"\n",
+          {"0.5 cells wide", "tool.radius"}),
+    scene("SmallSphere", bed + "[tool]\nradius = 0.0015\n[stroke]\nfile = \"s.toml\"\n",
+          {"1.5 cells wide", "needs 2 cells", "tool.radius"}),
     scene("NotToml", "[bed\n", {"bad.toml:1", "TOML"}),
     scene("BinaryScene", std::string("\x89HDF\r\n\x1a\n\0\0", 10), {"TOML"}),
     scene("UnknownKey", bed + "[relaxation]\ntalus = 30\n",

@@ -81,16 +81,17 @@ TEST(ToolFit, AMeshIsJudgedAsTheBoxOfItsSize) {
     EXPECT_EQ(complaint(mesh).empty(), complaint(box).empty()) << size;
     EXPECT_EQ(complaint(mesh).empty(), size == 0.02) << size;
   }
-  EXPECT_NE(complaint(mesh).find("if the mesh is in millimetres, set tool.scale = 0.001"), std::string::npos);
+  EXPECT_NE(complaint(mesh).find(
+                "is the mesh in millimetres? Then set tool.scale = 0.001, which makes it 0.141 mm wide"),
+            std::string::npos);
 }
 
 TEST(ToolFit, ACoarseToolIsWarnedOfWithTheErrorToExpect) {
   Scene scene = scene_with(ToolShape::sphere, 1.0);
   scene.tool.radius = 0.001;
-  EXPECT_EQ(
-      coarse_tool_warning(scene, 0.0005),
-      "the tool is 2 cells wide at its narrowest: its furrow may be off by up to 54 % (bench), and by 6 % "
-      "with ten, bed.cells = [600, 600]; --estimate-error says more");
+  EXPECT_EQ(coarse_tool_warning(scene, 0.0005),
+            "the tool is 2 cells wide at its narrowest: its furrow may be off by up to 54 %, and by 6 % "
+            "with ten, bed.cells = [600, 600]; --estimate-error says more");
   scene.tool.radius = 0.005;
   EXPECT_EQ(coarse_tool_warning(scene, 0.0005), "");
   EXPECT_EQ(coarse_tool_warning(scene_with(ToolShape::plate, 0.4), 0.004), "");
