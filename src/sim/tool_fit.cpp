@@ -15,8 +15,8 @@ namespace sandstroke {
 namespace {
 
 /// The least width [cells]. A sphere of less leaves nothing, or half its depth, as the cells lie. A cell at
-/// the edge of any other tool is as deep as those in its middle: a rake's teeth of 1.5 cells leave 15 to 70 %
-/// too much, of three cells 5 to 15 %.
+/// the edge of any other tool is as deep as those in its middle: a furrow of 1.5 cells is 13 to 99 % too
+/// large, of three cells 9 to 54 %.
 constexpr double least_of_sphere = 2.0, least_of_others = 3.0;
 /// From here on [cells] a furrow is within a few percent.
 constexpr double fine = 10.0;
