@@ -88,7 +88,7 @@ const std::vector<Case> cases = {
           {"tool.radius", "do not fit"}),
     scene("CellsWithoutVolume", "[bed]\nsize = [1e-150, 1e-150]\ncells = [10, 10]\n", {"bed.size", "1e-100"}),
     scene("ToolSmallerThanACell", bed + "[tool]\nradius = 0.0001\n[stroke]\nfile = \"line.toml\"\n",
-          {"tool.radius", "half a cell"}),
+          {"0.1 cells wide", "needs 2 cells", "tool.radius"}),
     scene("UnstableShare", bed + "[relaxation]\nlaw = \"isotropic\"\nshare = 0.5\n",
           {"relaxation.share", "0.25"}),
     scene("StrokeWithoutFile", bed + "[stroke]\nscale = 2.0\n", {"stroke.file"}),
