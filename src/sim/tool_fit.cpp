@@ -26,20 +26,6 @@ bool is_sphere(const Scene& scene) { return scene.tool.shape == ToolShape::spher
 
 bool is_known(const Scene& scene) { return scene.tool.shape != ToolShape::mesh || scene.tool.mesh; }
 
-/// The keys that make a tool wider.
-const char* width_keys(ToolShape shape) {
-  switch (shape) {
-    case ToolShape::box:
-      return "tool.size";
-    case ToolShape::plate:
-      return "tool.thickness";
-    case ToolShape::mesh:
-      return "tool.scale";
-    default:
-      return "tool.radius";
-  }
-}
-
 /// bed.cells in which a width [m] has so many cells.
 std::string cells_for(const BedSettings& bed, double width, double cells) {
   const auto along = [&](double size) { return std::ceil(size * cells / width * (1.0 - of_corners)); };
@@ -67,6 +53,19 @@ void check_size(const Scene& scene, const std::string& name) {
 
 }  // namespace
 
+const char* width_key(ToolShape shape) {
+  switch (shape) {
+    case ToolShape::box:
+      return "tool.size";
+    case ToolShape::plate:
+      return "tool.thickness";
+    case ToolShape::mesh:
+      return "tool.scale";
+    default:
+      return "tool.radius";
+  }
+}
+
 void check_tool_fits(const Scene& scene, const std::string& name, double depth) {
   if (!is_known(scene)) return;
   check_size(scene, name);
@@ -77,14 +76,14 @@ void check_tool_fits(const Scene& scene, const std::string& name, double depth) 
       std::isfinite(depth) && narrowest_width(scene.tool, std::numeric_limits<double>::infinity()) > width
           ? fmt::format(" up to its depth of {:.4g} m", depth)
           : "";
-  const char* keys = width_keys(scene.tool.shape);
+  const char* key = width_key(scene.tool.shape);
   if (!(width > 0.0))
     throw_input_error("{}: the tool has no width{}; take a tool with a wider tip, or a larger {}", name,
-                      where, keys);
+                      where, key);
   throw_input_error(
       "{}: the tool is only {:.3g} cells wide at its narrowest{} ({:.4g} m), and a furrow needs {:g} cells; "
       "take {} or more, or a larger {}{}",
-      name, cells, where, width, least, cells_for(scene.bed, width, least), keys,
+      name, cells, where, width, least, cells_for(scene.bed, width, least), key,
       scene.tool.shape == ToolShape::mesh && scene.tool.scale < 1.0
           ? fmt::format(" (is the mesh in metres? Then set tool.scale = 1; it is {:g})", scene.tool.scale)
           : "");

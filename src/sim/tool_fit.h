@@ -10,6 +10,9 @@ namespace sandstroke {
 // A tool must fit its bed, and its cells must resolve it. Both are told before a run begins. A mesh that was
 // not read is not looked at.
 
+/// The key of the settings that makes a tool of that shape wider, such as "tool.radius".
+const char* width_key(ToolShape shape);
+
 /// Error: input, if the tool does not fit the bed, or if it is narrower (narrowest_width) than two cells, as
 /// a sphere, or three cells, as any other tool: it would leave a furrow that depends on where the cells lie,
 /// or none. depth [m]: what counts is the tool up to there. `name`: the file that the error names.
