@@ -72,10 +72,9 @@ void check_tool_fits(const Scene& scene, const std::string& name, double depth) 
   const double least = is_sphere(scene) ? least_of_sphere : least_of_others;
   const double width = narrowest_width(scene.tool, depth), cells = width / scene.bed.cell_size();
   if (!(cells < least * (1.0 - of_corners))) return;
+  const double whole = narrowest_width(scene.tool, std::numeric_limits<double>::infinity());
   const std::string where =
-      std::isfinite(depth) && narrowest_width(scene.tool, std::numeric_limits<double>::infinity()) > width
-          ? fmt::format(" up to its depth of {:.4g} m", depth)
-          : "";
+      whole > width * (1.0 + of_corners) ? fmt::format(" up to its depth of {:.4g} m", depth) : "";
   const char* key = width_key(scene.tool.shape);
   if (!(width > 0.0))
     throw_input_error("{}: the tool has no width{}; take a tool with a wider tip, or a larger {}", name,
@@ -100,9 +99,9 @@ std::string coarse_tool_warning(const Scene& scene, double depth) {
   const double width = narrowest_width(scene.tool, depth), cells = width / scene.bed.cell_size();
   if (!(cells < fine * (1.0 - of_corners))) return "";
   return fmt::format(
-      "the tool is {:.3g} cells wide at its narrowest: its furrow may be off by up to {:.0f} % (bench), and "
-      "by "
-      "{:.0f} % with ten, {}; --estimate-error says more",
+      "the tool is {:.3g} cells wide at its narrowest: its furrow may be off by up to {:.0f} %, and by "
+      "{:.0f} % with "
+      "ten, {}; --estimate-error says more",
       cells, 100.0 * expected_furrow_error(scene.tool.shape, cells),
       100.0 * expected_furrow_error(scene.tool.shape, fine), cells_for(scene.bed, width, fine));
 }
