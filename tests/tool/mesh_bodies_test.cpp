@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// A box [m], its lowest corner at `at`. Its 12 triangles have corners of their own.
-TriangleMesh box(const Vector3d& at, const Vector3d& size) {
+TriangleMesh box_at(const Vector3d& at, const Vector3d& size) {
   ToolSettings settings;
   settings.shape = ToolShape::box;
   settings.size = size;
@@ -56,11 +56,12 @@ std::string complaint(const TriangleMesh& mesh) {
   return "";
 }
 
-const Vector3d low(-0.01, -0.01, 0.0), size(0.02, 0.02, 0.04);
+const Vector3d block_at(-0.01, -0.01, 0.0), block_size(0.02, 0.02, 0.04);
 
 TEST(MeshBodies, WhatIsThereTwiceOrInsideCountsOnce) {
-  const TriangleMesh one = box(low, size), inner = box({-0.005, -0.005, 0.01}, {0.01, 0.01, 0.01}),
-                     innermost = box({-0.002, -0.002, 0.012}, {0.004, 0.004, 0.004});
+  const TriangleMesh one = box_at(block_at, block_size),
+                     inner = box_at({-0.005, -0.005, 0.01}, {0.01, 0.01, 0.01}),
+                     innermost = box_at({-0.002, -0.002, 0.012}, {0.004, 0.004, 0.004});
   for (const TriangleMesh& mesh :
        {one, together({one, one}), together({one, one, one}), together({one, inner}), together({inner, one}),
         together({one, inside_out(inner)}), together({one, inner, innermost}),
@@ -74,7 +75,8 @@ TEST(MeshBodies, WhatIsThereTwiceOrInsideCountsOnce) {
 }
 
 TEST(MeshBodies, AFaceBetweenTwoPartsIsInside) {
-  const TriangleMesh stacked = together({box(low, size), box({-0.01, -0.01, 0.04}, size)});
+  const TriangleMesh stacked =
+      together({box_at(block_at, block_size), box_at({-0.01, -0.01, 0.04}, block_size)});
   const TriangleMesh checked = checked_mesh(stacked, "t.stl");
   EXPECT_EQ(checked.triangles.size(), 20u);
   EXPECT_NEAR(enclosed_volume(checked), 3.2e-5, 1e-15);
@@ -82,26 +84,26 @@ TEST(MeshBodies, AFaceBetweenTwoPartsIsInside) {
 }
 
 TEST(MeshBodies, SolidsThatOverlapOrTouchAreRefusedByName) {
-  const TriangleMesh one = box(low, size);
+  const TriangleMesh one = box_at(block_at, block_size);
   const Vector3d shifts[] = {{0.01, 0.003, 0.0},   {0.01, 0.0, 0.0},   {0.0, 0.0, 0.02}, {0.004, 0.004, 0.01},
                              {0.005, 0.005, 0.04}, {0.02, 0.01, 0.01}, {0.0, 0.01, 0.0}};
   for (const Vector3d& shift : shifts) {
-    const std::string text = complaint(together({one, box(low + shift, size)}));
+    const std::string text = complaint(together({one, box_at(block_at + shift, block_size)}));
     EXPECT_NE(text.find("t.stl: two of its 2 bodies overlap or touch, those around (0, 0, 20) mm and ("),
               std::string::npos)
         << shift.transpose() << ": " << text;
   }
-  EXPECT_NE(complaint(together({one, box(low + Vector3d(0.01, 0.003, 0.0), size)}))
+  EXPECT_NE(complaint(together({one, box_at(block_at + Vector3d(0.01, 0.003, 0.0), block_size)}))
                 .find("(10, 3, 20) mm (their boxes share 10 x 17 x 40 mm)"),
             std::string::npos);
   // A bar through a block: no corner of either lies in the other.
-  const TriangleMesh bar = box({-0.03, -0.002, 0.01}, {0.06, 0.004, 0.004});
+  const TriangleMesh bar = box_at({-0.03, -0.002, 0.01}, {0.06, 0.004, 0.004});
   EXPECT_NE(complaint(together({one, bar})).find("bodies overlap"), std::string::npos);
 }
 
 TEST(MeshBodies, ABodyThatPassesThroughItselfIsRefused) {
   // Two boxes that overlap and share a corner hang together.
-  TriangleMesh mesh = together({box(low, size), box(low, 0.5 * size)});
+  TriangleMesh mesh = together({box_at(block_at, block_size), box_at(block_at, 0.5 * block_size)});
   EXPECT_NE(complaint(mesh).find("t.stl: the surface passes through itself near ("), std::string::npos)
       << complaint(mesh);
 }
@@ -117,7 +119,7 @@ TEST(MeshBodies, BodiesApartAllCountAndAreTurnedEach) {
           s(extent(random), extent(random), extent(random));
       volume += s.prod();
       area += 2.0 * (s.x() * s.y() + s.y() * s.z() + s.z() * s.x());
-      parts.push_back(random() % 2 ? box(at, s) : inside_out(box(at, s)));
+      parts.push_back(random() % 2 ? box_at(at, s) : inside_out(box_at(at, s)));
     }
     const TriangleMesh checked = checked_mesh(together(parts), "t.stl");
     EXPECT_EQ(checked.triangles.size(), 48u);
@@ -137,7 +139,7 @@ TEST(MeshBodies, RandomBoxesAreRefusedWhereTwoOverlap) {
       const Vector3d at(place(random), place(random), i == 0 ? 0.0 : 0.5 * place(random)),
           s(extent(random), extent(random), extent(random));
       boxes.emplace_back(at, at + s);
-      parts.push_back(box(at, s));
+      parts.push_back(box_at(at, s));
     }
     // Surfaces meet where boxes do, unless one lies within the other.
     bool meet = false;
@@ -154,7 +156,7 @@ TEST(MeshBodies, RandomBoxesAreRefusedWhereTwoOverlap) {
 TEST(MeshBodies, ManyBodiesAreRefused) {
   std::vector<TriangleMesh> parts;
   for (int i = 0; i < 1001; ++i)
-    parts.push_back(box({1e-3 * (i % 40), 1e-3 * (i / 40), 0.0}, {5e-4, 5e-4, 5e-4}));
+    parts.push_back(box_at({1e-3 * (i % 40), 1e-3 * (i / 40), 0.0}, {5e-4, 5e-4, 5e-4}));
   EXPECT_NE(complaint(together(parts)).find("1001 bodies that do not hang together"), std::string::npos);
 }
 
