@@ -9,6 +9,7 @@
 #include "import/gcode.h"
 #include "import/gcode_words.h"
 #include "import/inkml.h"
+#include "import/kinds_not_read.h"
 #include "import/mat.h"
 #include "import/ros2_bag.h"
 #include "import/text_parts.h"
@@ -20,15 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A kind of file that is not read, known by its first bytes, its ending, or both.
-struct KindNotRead {
-  std::string_view begin, ending;
-  const char *name, *way_out;
-};
-
 constexpr const char* as_csv = "save or export it as CSV";
-constexpr const char* unpack = "unpack it and name the file inside";
-constexpr KindNotRead kinds_not_read[] = {
+constexpr KindNotRead recordings_not_read[] = {
     {"#ROSBAG V", "", "a ROS 1 bag",
      "convert it: rosbags-convert --src FILE.bag --dst FOLDER, and name the .db3 file in that folder"},
     {"\x89MCAP0\r\n", "", "an MCAP file (ROS 2)", "convert it to a .db3: ros2 bag convert"},
@@ -37,7 +31,6 @@ constexpr KindNotRead kinds_not_read[] = {
     {"PK\x03\x04", ".ods", "a spreadsheet (.ods)", as_csv},
     {"PK\x03\x04", ".npz", "a NumPy archive (.npz)",
      "save a table: numpy.savetxt('samples.csv', samples, delimiter=',', header='x,y,z')"},
-    {"PK\x03\x04", "", "a zip archive", unpack},
     {"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", "", "an old Excel or Office file", as_csv},
     {"PAR1", "", "a Parquet file",
      "save it as CSV: pandas.read_parquet('FILE').to_csv('samples.csv', index=False)"},
@@ -50,13 +43,6 @@ constexpr KindNotRead kinds_not_read[] = {
     {"%PDF", "", "a PDF", "name the file with the samples themselves"},
     {"\x89PNG", "", "a PNG picture", "name the file with the samples themselves"},
     {"\xFF\xD8\xFF", "", "a JPEG picture", "name the file with the samples themselves"},
-    {"\x1F\x8B", "", "packed by gzip", "unpack it: gunzip FILE"},
-    {"BZh", "", "packed by bzip2", "unpack it: bunzip2 FILE"},
-    {"\xFD"
-     "7zXZ",
-     "", "packed by xz", "unpack it: unxz FILE"},
-    {"\x28\xB5\x2F\xFD", "", "packed by zstd", "unpack it: unzstd FILE"},
-    {"7z\xBC\xAF", "", "a 7z archive", unpack},
     {"", ".pkl", "a Python pickle", "save a table: DataFrame.to_csv('samples.csv', index=False)"},
     {"", ".c3d", "a C3D file (motion capture)", "export its points as CSV"},
     {"", ".svg", "an SVG drawing", "convert it to G-code for a plotter"},
@@ -71,13 +57,6 @@ std::string head_of(const fs::path& path) {
   std::string head(1 << 16, '\0');
   head.resize(InputFile(path).read(head.data(), head.size()));
   return head;
-}
-
-void refuse_kinds_not_read(const fs::path& path, std::string_view head) {
-  for (const KindNotRead& kind : kinds_not_read)
-    if (head.starts_with(kind.begin) && (kind.ending.empty() || has_ending(path, kind.ending)))
-      throw_input_error("{}: is {}, which sandstroke cannot read; {}", path.string(), kind.name,
-                        kind.way_out);
 }
 
 /// Refuses text that begins as XML or JSON, which other programs read. A script begins with [[segment]] or a
@@ -118,7 +97,8 @@ std::optional<SampleTable> read_known_format(const fs::path& path, const TableSe
   if (head.starts_with(std::string_view("SQLite format 3\0", 16))) return read_ros2_bag(path, part);
   if (head.starts_with("MATLAB ") || has_ending(path, ".mat")) return read_mat(path, part);
   if (!part.empty()) throw_input_error("{}: has no parts; leave out --part {}", path.string(), part);
-  refuse_kinds_not_read(path, head);
+  refuse_kinds(recordings_not_read, path, head);
+  refuse_kinds(packed_kinds, path, head);
   if (is_binary(head)) {
     throw_input_error("{}: is neither text nor a binary format that sandstroke reads (ROS 2 bag, MATLAB); {}",
                       path.string(), as_csv);
