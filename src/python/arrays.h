@@ -43,8 +43,10 @@ pybind11::array_t<double> copy_of(const HeightGrid& grid);
 pybind11::array_t<double> columns_of(const BedGeometry& bed);
 pybind11::array_t<double> rows_of(const BedGeometry& bed);
 
-/// Reads heights: two dimensions, rows along y. Error: input, naming `name`, also if a height is not a
-/// number.
+/// Reads heights: two dimensions, rows along y; not-a-number where they are masked. Error: input, naming
+/// `name`.
+HeightGrid grid_with_gaps(const char* name, const pybind11::object& heights);
+/// The same. Error: input, also if a height is masked or not a number.
 HeightGrid grid_of(const char* name, const pybind11::object& heights);
 
 /// Makes a stroke from arrays by column name (visit_columns): at least "time" [s] and "position" [m]. Error:

@@ -3,6 +3,7 @@
 #include <pybind11/pybind11.h>
 
 #include "core/error.h"
+#include "io/map_on_bed.h"
 #include "io/run_file.h"
 #include "python/errors.h"
 #include "run/run_summary.h"
@@ -38,10 +39,12 @@ class Keeper : public SimulationObserver {
 
 }  // namespace
 
-HeightField surface_of(const Scene& scene, const HeightGrid& heights) {
+HeightField surface_of(const Scene& scene, HeightGrid heights) {
   if (heights.rows() != scene.bed.rows || heights.cols() != scene.bed.cols)
     throw_input_error("surface: has {} rows and {} columns, and the scene's bed {} and {} (bed.cells)",
                       heights.rows(), heights.cols(), scene.bed.rows, scene.bed.cols);
+  check_no_gaps(heights, scene.bed, "surface", "fill them with a height: numpy.ma.filled(surface, 0.0)");
+  check_heights(heights.minCoeff(), heights.maxCoeff(), scene.bed, "surface");
   return HeightField(heights, scene.bed.cell_size(), scene.bed.shape);
 }
 

@@ -166,7 +166,7 @@ PYBIND11_MODULE(_sandstroke, module) {
     std::optional<Stroke> samples;
     if (!stroke.is_none()) samples = stroke_of(stroke.cast<py::dict>());
     std::optional<HeightField> start;
-    if (!surface.is_none()) start = surface_of(scene.scene, grid_of("surface", surface));
+    if (!surface.is_none()) start = surface_of(scene.scene, grid_with_gaps("surface", surface));
     return or_what_ended_it(
         [&] { return kept_run(scene, std::move(samples), std::move(start), output, threads); });
   });

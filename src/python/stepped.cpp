@@ -25,7 +25,7 @@ class Stepped {
   Stepped(const SceneHere& here, bool relaxes, const py::object& surface)
       : folder_(here.folder), view_(here.scene.view) {
     std::optional<HeightField> start;
-    if (!surface.is_none()) start = surface_of(here.scene, grid_of("surface", surface));
+    if (!surface.is_none()) start = surface_of(here.scene, grid_with_gaps("surface", surface));
     Warnings warnings;
     {
       const py::gil_scoped_release let_go;

@@ -136,7 +136,7 @@ def stroke_columns(stroke: Any) -> dict[str, Any]:
         if missing:
             raise _core.InputError(f"stroke: a table needs the columns time, x, y and z; {', '.join(missing)} is missing")
         return {"time": np.asarray(stroke["time"]), "position": np.asarray(stroke[["x", "y", "z"]])}
-    table = np.asarray(stroke)
+    table = np.asanyarray(stroke)  # keeps a mask, which is refused
     if table.dtype.kind not in "fiu" or table.ndim != 2 or table.shape[1] != 4:
         raise _core.InputError(
             f"stroke: an array has the columns time, x, y and z; this one has the shape {table.shape}; for more "
