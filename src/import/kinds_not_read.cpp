@@ -7,7 +7,7 @@ namespace sandstroke {
 namespace {
 
 constexpr const char* unpack = "unpack it and name the file inside";
-constexpr KindNotRead packed[] = {
+constexpr KindNotRead kinds_of_archives[] = {
     {"PK\x03\x04", "", "a zip archive", unpack},
     {"\x1F\x8B", "", "packed by gzip", "unpack it: gunzip FILE"},
     {"BZh", "", "packed by bzip2", "unpack it: bunzip2 FILE"},
@@ -20,7 +20,7 @@ constexpr KindNotRead packed[] = {
 
 }  // namespace
 
-const std::span<const KindNotRead> packed_kinds = packed;
+const std::span<const KindNotRead> packed_kinds = kinds_of_archives;
 
 void refuse_kinds(std::span<const KindNotRead> kinds, const std::filesystem::path& path,
                   std::string_view head) {

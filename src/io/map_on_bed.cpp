@@ -17,7 +17,7 @@ namespace {
 constexpr std::array usual_no_data = {
     -9999.0, -99999.0, -32767.0, -32768.0, -3.4028234663852886e38, 3.4028234663852886e38};
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_height = std::numeric_limits<double>::quiet_NaN();
 
 /// The area means of a map's lines over the bed's cells, summed up line by line.
 class MapMeans {
@@ -288,7 +288,7 @@ HeightGrid heights_on_bed(HeightMap& map, const BedSettings& bed, const std::str
     heights = heights.unaryExpr([&](double sum) { return rule.height(sum); });
   } else {
     const HeightGrid missing = upright(means.missing, layout);
-    const double fill = bed.surface.nodata.value_or(nothing);
+    const double fill = bed.surface.nodata.value_or(no_height);
     heights = heights.binaryExpr(missing, [&](double sum, double gap) {
       return gap == 0.0 ? rule.height(sum) : rule.height(sum, 1.0 - gap) + fill * gap;
     });

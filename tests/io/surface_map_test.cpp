@@ -270,7 +270,7 @@ TEST_F(SurfaceMap, HeightsThatNoBedHasAreRefused) {
   };
   for (const double number : {-9999.0, -32768.0, -3.4028234663852886e38})
     refused(number, {"2 cells have the height", "usually means no data", "nan"});
-  refused(1512.0, {"heights from 0 to 1512 m", "bed.surface.low and high"});
+  refused(1512.0, {"to 1512 m are beyond the 2 m", "bed.surface.low and high"});
   refused(std::numeric_limits<double>::infinity(), {"2 cells have heights that are not finite"});
   BedSettings bed = bed_of(4, 4, 0.05);
   h(1, 2) = h(3, 3) = 0.0;
@@ -294,7 +294,7 @@ TEST_F(SurfaceMap, DamagedFilesAreRefusedWithTheirPlace) {
     tiff.resize(static_cast<std::size_t>(in.gcount()));
   }
   const std::vector<std::pair<std::string, std::vector<std::string>>> files = {
-      {grid.substr(0, grid.size() - 6), {"of 4 x 3 heights", "cut off"}},
+      {grid.substr(0, grid.rfind(' ')), {"of 4 x 3 heights", "cut off"}},
       {grid + "5\n", {"'5' follows the last height"}},
       {head + "0,1 0 0 0\n", {":4:", "'0,1' has a comma"}},
       {"ncols 4\nnrows 3\ncellsize 0,5\n", {":3:", "'0,5' has a comma"}},

@@ -128,6 +128,25 @@ def test_a_surface_of_ones_own(small, line):
             sandstroke.run(small, line, surface=surface)
 
 
+def test_what_is_under_a_mask_is_neither_sand_nor_stroke(small, line):
+    surface = np.ma.array(np.zeros_like(sandstroke.run(small, line).final))
+    assert np.array_equal(sandstroke.run(small, line, surface=surface).initial, surface.data)  # nothing is masked
+    surface[:5, :4] = -9999.0
+    surface[:5, :4] = np.ma.masked
+    for start in (sandstroke.run, lambda scene, _, surface: sandstroke.Simulation(scene, surface=surface)):
+        with pytest.raises(sandstroke.InputError, match=f"20 of the bed's {surface.size} cells have no height.*filled"):
+            start(small, line, surface=surface)
+        with pytest.raises(sandstroke.InputError, match="heights from -9999 to 0 m"):
+            start(small, line, surface=surface.data)
+    assert sandstroke.run(small, line, surface=surface.filled(0.0)).initial.min() == 0.0
+    masked = np.ma.array(line)
+    masked[3, 1:] = np.ma.masked
+    for stroke in (masked, {"time": masked[:, 0], "position": masked[:, 1:]}):
+        with pytest.raises(sandstroke.InputError, match="position has 3 masked numbers"):
+            sandstroke.run(small, stroke)
+
+
+
 def test_samples_far_apart_are_joined_where_that_is_asked(small):
     ends = {"time": [0.0, 0.4], "position": [[-0.05, 0.0, -0.003], [0.05, 0.0, -0.003]]}
     assert sandstroke.run(small, {**ends, "gap_threshold": 1.0}).summary["contact_ticks"] > 300
