@@ -13,9 +13,12 @@
 namespace sandstroke {
 namespace {
 
-/// Numbers that programs of maps write for no data. None is the height of a bed.
-constexpr std::array usual_no_data = {
-    -9999.0, -99999.0, -32767.0, -32768.0, -3.4028234663852886e38, 3.4028234663852886e38};
+/// True for a number that programs of maps write for no data: none is the height of a bed.
+bool is_usual_no_data(double value) {
+  constexpr std::array usual = {-9999.0, -99999.0, -32767.0, -32768.0};
+  constexpr double most = 1e30;  // most others are near the largest float
+  return std::find(usual.begin(), usual.end(), value) != usual.end() || std::abs(value) > most;
+}
 
 constexpr double no_height = std::numeric_limits<double>::quiet_NaN();
 
@@ -107,15 +110,15 @@ struct MapValues {
   void check(const std::string& name) const {
     for (const MapEnd& end : {lowest, highest}) {
       if (end.cells == 0) continue;  // no cell has data
-      if (std::find(usual_no_data.begin(), usual_no_data.end(), end.value) != usual_no_data.end())
+      if (std::isinf(end.value))
+        throw_input_error("{}: {} cells have heights that are not finite numbers; correct them", name,
+                          end.cells);
+      if (is_usual_no_data(end.value))
         throw_input_error(
             "{}: {} cells have the height {:g} m, which usually means no data, but the file does not say so; "
             "mark "
             "it as no data (gdal_translate -a_nodata {:g}; in NumPy: nan)",
             name, end.cells, end.value, end.value);
-      if (std::isinf(end.value))
-        throw_input_error("{}: {} cells have heights that are not finite numbers; correct them", name,
-                          end.cells);
     }
   }
 };

@@ -5,7 +5,10 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/input_file.h"
+#include "hdf5/hdf5_file.h"
 #include "io/height_map.h"
+#include "io/input_kind.h"
 #include "io/map_on_bed.h"
 #include "io/png_file.h"
 #include "io/run_file.h"
@@ -13,6 +16,17 @@
 
 namespace sandstroke {
 namespace {
+
+/// Error: input, for files that are neither maps nor HDF5 files.
+void check_is_run(const std::filesystem::path& path) {
+  if (begins_with(path, hdf5_signature)) return;
+  expect_kind(path, {InputKind::run});
+  throw_input_error(
+      "{}: is neither a run file nor a map that sandstroke reads; save the heights as a GeoTIFF, a 16-bit "
+      "grayscale "
+      "PNG, a NumPy array (.npy) or an ESRI ASCII grid (.asc)",
+      path.string());
+}
 
 /// A run's final surface: area means of it, if the bed has other cells.
 HeightGrid final_heights(const RunFile& run, const BedSettings& bed) {
@@ -55,6 +69,7 @@ HeightField load_surface(const BedSettings& settings, const std::filesystem::pat
   if (const std::unique_ptr<HeightMap> map = open_height_map(path)) {
     heights = heights_on_bed(*map, bed, path.string());
   } else {
+    check_is_run(path);
     heights = final_heights(RunFile(path), bed);
     if (!heights.isFinite().all())
       throw_input_error("{}: holds heights that are not finite numbers; correct it", path.string());

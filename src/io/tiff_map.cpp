@@ -82,7 +82,8 @@ class OpenTiff {
   }
 
  private:
-  static int keep(TIFF*, void* self, const char*, const char* format, std::va_list values) {
+  [[gnu::format(printf, 4, 0)]] static int keep(TIFF*, void* self, const char*, const char* format,
+                                                std::va_list values) {
     auto* tiff = static_cast<OpenTiff*>(self);
     std::vsnprintf(tiff->message_, sizeof tiff->message_, format, values);
     return 1;

@@ -371,6 +371,12 @@ TEST_F(SurfaceMap, KindsThatAreNotReadNameAWayOut) {
     put_text(file(name), "1 2 3\n");
     expect_refused(bed_of(3, 4, 0.1, name), {way_out});
   }
+  for (const std::string& bytes : {std::string(), std::string("some text"), std::string("\1\2\0\3", 4)}) {
+    put_text(file("map"), bytes);
+    expect_refused(bed_of(3, 4, 0.1), {"neither a run file nor a map"});
+  }
+  put_text(file("map"), "[bed]\nsize = [1.0, 1.0]\n");
+  expect_refused(bed_of(3, 4, 0.1), {"is a scene, not a run file"});
   const std::vector<std::pair<std::string, std::string>> begins = {
       {"LASF", "gdal_grid"},  {"CDF\x01", "gdal_translate"}, {"DSAA", "Surfer"},
       {"\x1F\x8B", "gunzip"}, {"PK\x03\x04", "unpack"},      {"\xFF\xD8\xFF", "16-bit"}};
