@@ -80,8 +80,7 @@ void HeightMap::set_size(const std::string& name, double rows, double cols) {
   if (rows > most_side || cols > most_side || rows * cols > most_cells)
     throw_input_error(
         "{}: has {:.0f} x {:.0f} cells, which are too many; make it coarser, with at most {} per side and "
-        "{:.0f} "
-        "million in all",
+        "{:.0f} million in all",
         name, cols, rows, most_side, 1e-6 * most_cells);
   layout_.rows = static_cast<int>(rows);
   layout_.cols = static_cast<int>(cols);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "sand/cell_means.h"
+#include "io/map_means.h"
 
 namespace sandstroke {
 namespace {
@@ -21,63 +21,6 @@ bool is_usual_no_data(double value) {
 }
 
 constexpr double no_height = std::numeric_limits<double>::quiet_NaN();
-
-/// The area means of a map's lines over the bed's cells, summed up line by line.
-class MapMeans {
- public:
-  /// lines, length: of the map; out_lines, out_length: the same directions in the bed.
-  MapMeans(int lines, int length, int out_lines, int out_length)
-      : across_(cell_covers(out_lines, lines)),
-        along_(cell_covers(out_length, length)),
-        sums(HeightGrid::Zero(out_lines, out_length)),
-        line_sums_(out_length),
-        line_missing_(out_length) {}
-
-  void add(const std::vector<double>& line, bool has_gaps) {
-    sum_along(line, has_gaps);
-    if (has_gaps && missing.size() == 0) missing = HeightGrid::Zero(sums.rows(), sums.cols());
-    for (std::size_t out = first_open_; out < across_.size() && across_[out].begin <= line_; ++out) {
-      const auto part = static_cast<std::size_t>(line_ - across_[out].begin);
-      if (part >= across_[out].fraction.size()) {
-        first_open_ = out + 1;  // it is whole, and so are all before it
-        continue;
-      }
-      const double fraction = across_[out].fraction[part];
-      const auto row = static_cast<Eigen::Index>(out);
-      sums.row(row) += fraction * line_sums_;
-      if (has_gaps) missing.row(row) += fraction * line_missing_;
-    }
-    ++line_;
-  }
-
- private:
-  void sum_along(const std::vector<double>& line, bool has_gaps) {
-    for (std::size_t out = 0; out < along_.size(); ++out) {
-      double sum = 0.0, gap = 0.0;
-      const CellCover& cover = along_[out];
-      for (std::size_t k = 0; k < cover.fraction.size(); ++k) {
-        const double value = line[static_cast<std::size_t>(cover.begin) + k];
-        if (has_gaps && std::isnan(value))
-          gap += cover.fraction[k];
-        else
-          sum += cover.fraction[k] * value;
-      }
-      line_sums_[static_cast<Eigen::Index>(out)] = sum;
-      line_missing_[static_cast<Eigen::Index>(out)] = gap;
-    }
-  }
-
-  std::vector<CellCover> across_, along_;
-  int line_ = 0;
-  std::size_t first_open_ = 0;
-
- public:
-  HeightGrid sums;     ///< of data, times the fraction of the cell that each fills
-  HeightGrid missing;  ///< fraction of each cell that has no data; empty: all have
-
- private:
-  Eigen::Array<double, 1, Eigen::Dynamic> line_sums_, line_missing_;
-};
 
 /// The lowest or the highest value of a map, and how many cells have it.
 struct MapEnd {
@@ -116,8 +59,7 @@ struct MapValues {
       if (is_usual_no_data(end.value))
         throw_input_error(
             "{}: {} cells have the height {:g} m, which usually means no data, but the file does not say so; "
-            "mark "
-            "it as no data (gdal_translate -a_nodata {:g}; in NumPy: nan)",
+            "mark it as no data (gdal_translate -a_nodata {:g}; in NumPy: nan)",
             name, end.cells, end.value, end.value);
     }
   }
@@ -148,15 +90,13 @@ MapFit fit_of(const MapLayout& map, const BedSettings& bed, const std::string& n
   if (!map.cell || !fits(right_size))
     throw_input_error(
         "{}: has {} x {} cells{}, which a bed of {} m by {} m cannot have without distortion; cut the map, "
-        "or set "
-        "bed.size = [{}, {:.6g}]{} and bed.cells so that cells are square",
+        "or set bed.size = [{}, {:.6g}]{} and bed.cells so that cells are square",
         name, map.cols, map.rows,
         map.cell ? fmt::format(" of {:g} x {:g} m", map.cell->x(), map.cell->y()) : "", bed.width, bed.depth,
         bed.width, right_size.y(), map.cell ? fmt::format(", bed.surface.scale = {}", right_scale) : "");
   throw_input_error(
       "{}: is {:g} m by {:g} m{}, but the bed is {} m by {} m; set bed.surface.scale = {}, which scales "
-      "lengths and "
-      "heights, or bed.size = [{:g}, {:g}]",
+      "lengths and heights, or bed.size = [{:g}, {:g}]",
       name, size.x(), size.y(), scale == 1.0 ? "" : fmt::format(" at bed.surface.scale = {}", scale),
       bed.width, bed.depth, right_scale, size.x(), size.y());
 }
@@ -191,14 +131,12 @@ void check_settings(const MapLayout& map, const BedSettings& bed, const std::str
   if (map.gray && surface.low == surface.high)
     throw_input_error(
         "{}: the picture does not say its heights, and bed.surface.low and high are both {} m; set them to "
-        "the "
-        "heights of black and white",
+        "the heights of black and white",
         name, surface.low);
   if (!map.cell && surface.scale != 1.0 && surface.low != surface.high)
     throw_input_error(
         "{}: bed.surface.scale = {} does nothing, because the file has no lengths, and bed.surface.low and "
-        "high "
-        "give its heights; leave it out",
+        "high give its heights; leave it out",
         name, surface.scale);
   if (surface.nodata) check_heights(*surface.nodata, *surface.nodata, bed, name + ": bed.surface.nodata");
 }
@@ -243,8 +181,7 @@ void check_heights(double lowest, double highest, const BedSettings& bed, const 
   if (lowest >= -most * length && highest <= most * length) return;
   throw_input_error(
       "{}: heights from {:g} to {:g} m are beyond the {:g} m (ten times its length) that a bed of {} m by {} "
-      "m may "
-      "have; give them in metres from z = 0{}",
+      "m may have; give them in metres from z = 0{}",
       what, lowest, highest, most * length, bed.width, bed.depth,
       bed.surface.kind == SurfaceKind::file
           ? ", or set bed.surface.low and high to the heights of the lowest and the highest"
@@ -286,11 +223,11 @@ HeightGrid heights_on_bed(HeightMap& map, const BedSettings& bed, const std::str
   if (values.lowest.cells > 0)
     check_heights(rule.height(values.lowest.value), rule.height(values.highest.value), bed, name);
 
-  HeightGrid heights = upright(means.sums, layout);
+  HeightGrid heights = upright(means.sums(), layout);
   if (values.missing == 0) {
     heights = heights.unaryExpr([&](double sum) { return rule.height(sum); });
   } else {
-    const HeightGrid missing = upright(means.missing, layout);
+    const HeightGrid missing = upright(means.missing(), layout);
     const double fill = bed.surface.nodata.value_or(no_height);
     heights = heights.binaryExpr(missing, [&](double sum, double gap) {
       return gap == 0.0 ? rule.height(sum) : rule.height(sum, 1.0 - gap) + fill * gap;

@@ -23,8 +23,7 @@ void check_is_run(const std::filesystem::path& path) {
   expect_kind(path, {InputKind::run});
   throw_input_error(
       "{}: is neither a run file nor a map that sandstroke reads; save the heights as a GeoTIFF, a 16-bit "
-      "grayscale "
-      "PNG, a NumPy array (.npy) or an ESRI ASCII grid (.asc)",
+      "grayscale PNG, a NumPy array (.npy) or an ESRI ASCII grid (.asc)",
       path.string());
 }
 
