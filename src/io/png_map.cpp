@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/machine.h"
 #include "io/png_reader.h"
 
 namespace sandstroke {
@@ -18,6 +17,10 @@ class PngMap : public HeightMap {
       throw_input_error("{}: is {}-bit {}; heights need a 16-bit grayscale PNG", png_.name(),
                         png_.bit_depth(), png_.gray() ? "grayscale" : "colour");
     set_size(png_.name(), png_.height(), png_.width());
+    constexpr double most_interlaced = 0x1p26;  // cells
+    if (png_.interlaced() && static_cast<double>(layout_.rows) * layout_.cols > most_interlaced)
+      throw_input_error("{}: has {} x {} pixels, too many for an interlaced PNG; save it without interlacing",
+                        png_.name(), layout_.cols, layout_.rows);
     layout_.gray = true;
     row_.resize(2 * static_cast<std::size_t>(layout_.cols));
   }
@@ -34,11 +37,7 @@ class PngMap : public HeightMap {
  private:
   /// The rows of an interlaced PNG are known only when all of it is.
   void take_from_all() {
-    if (all_.empty()) {
-      check_memory(2.0 * layout_.rows * layout_.cols, png_.name() + ": an interlaced PNG of this size",
-                   "save it without interlacing");
-      all_ = png_.pixels(2);
-    }
+    if (all_.empty()) all_ = png_.pixels(2);
     std::copy_n(all_.begin() + static_cast<std::ptrdiff_t>(taken_), row_.size(), row_.begin());
     taken_ += row_.size();
   }

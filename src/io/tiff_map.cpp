@@ -3,18 +3,16 @@
 #include <tiffio.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdarg>
 #include <cstdio>
 #include <limits>
 #include <span>
 #include <string>
-#include <vector>
+#include <type_traits>
 
 #include "core/error.h"
 #include "core/input_file.h"
-#include "core/machine.h"
 #include "import/stored_numbers.h"
 #include "import/text_parts.h"
 
@@ -25,7 +23,7 @@ static_assert(std::endian::native == std::endian::little);  // libtiff gives num
 
 constexpr std::uint32_t pixel_scale_tag = 33550, transformation_tag = 34264, geo_keys_tag = 34735,
                         gdal_metadata_tag = 42112, gdal_no_data_tag = 42113;
-constexpr std::uint32_t largest_tile_side = 8192;
+constexpr std::size_t most_band_bytes = std::size_t{1} << 27;
 
 /// A file that libtiff has open, with the reason of its last failure.
 class OpenTiff {
@@ -57,12 +55,19 @@ class OpenTiff {
     TIFFGetFieldDefaulted(tiff_, tag, &value);
     return value;
   }
-  /// The values of a tag that libtiff does not know; empty: it is not there.
+  /// The values of a tag that libtiff does not know; empty: it is not there. Error: input, if they are of
+  /// another type, whose bytes these would not be.
   template <class Number>
   std::span<const Number> values(std::uint32_t tag) const {
+    const TIFFField* const field = TIFFFieldWithTag(tiff_, tag);
     std::uint32_t count = 0;
     void* first = nullptr;
-    if (TIFFGetField(tiff_, tag, &count, &first) != 1 || !first) return {};
+    if (!field || TIFFGetField(tiff_, tag, &count, &first) != 1 || !first) return {};
+    constexpr TIFFDataType type = std::is_same_v<Number, double>          ? TIFF_DOUBLE
+                                  : std::is_same_v<Number, std::uint16_t> ? TIFF_SHORT
+                                                                          : TIFF_ASCII;
+    if (TIFFFieldDataType(field) != type || TIFFFieldPassCount(field) == 0)
+      refuse(fmt::format("has the tag {} with values of another type; save it again", tag));
     return {static_cast<const Number*>(first), count};
   }
   std::string_view text(std::uint32_t tag) const {
@@ -221,16 +226,14 @@ class TiffMap : public HeightMap {
   void open_tiles() {
     tile_cols_ = tiff_.number<std::uint32_t>(TIFFTAG_TILEWIDTH);
     band_rows_ = tiff_.number<std::uint32_t>(TIFFTAG_TILELENGTH);
-    if (tile_cols_ == 0 || band_rows_ == 0 || tile_cols_ > largest_tile_side ||
-        band_rows_ > largest_tile_side)
-      tiff_.refuse(fmt::format("has tiles of {} x {} pixels; save it with tiles of at most {}", tile_cols_,
-                               band_rows_, largest_tile_side));
-    tile_.resize(type_.bytes * tile_cols_ * band_rows_);
-    if (TIFFTileSize64(tiff_) != tile_.size()) tiff_.throw_damaged();
-    const std::size_t bytes = row_bytes_ * band_rows_;
-    check_memory(static_cast<double>(bytes), tiff_.name() + ": a row of its tiles",
-                 "save it with smaller tiles");
-    band_.resize(bytes);
+    const std::size_t tile_bytes = type_.bytes * tile_cols_ * band_rows_,
+                      band_bytes = row_bytes_ * band_rows_;
+    if (tile_bytes == 0 || std::max(tile_bytes, band_bytes) > most_band_bytes)
+      tiff_.refuse(
+          fmt::format("has tiles of {} x {} pixels; save it with smaller ones", tile_cols_, band_rows_));
+    if (TIFFTileSize64(tiff_) != tile_bytes) tiff_.throw_damaged();
+    tile_.resize(tile_bytes);
+    band_.resize(band_bytes);
   }
 
   /// The bytes of the next row from the top.
