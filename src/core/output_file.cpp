@@ -3,13 +3,13 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 
 #include "core/error.h"
 #include "core/input_file.h"
+#include "core/small_letters.h"
 
 namespace sandstroke {
 namespace fs = std::filesystem;
@@ -65,11 +65,7 @@ void check_part_replaceable(const fs::path& path, const OutputKind& kind) {
 
 void overwrite_outputs() { overwrite = true; }
 
-std::string small_ending(const fs::path& path) {
-  std::string ending = path.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
-}
+std::string small_ending(const fs::path& path) { return small_letters(path.extension().string()); }
 
 bool has_hdf5_name(const fs::path& path) {
   const std::string ending = small_ending(path);

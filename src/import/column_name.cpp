@@ -6,6 +6,7 @@
 #include <cctype>
 #include <set>
 
+#include "core/small_letters.h"
 #include "import/text_parts.h"
 #include "import/units.h"
 
@@ -53,7 +54,6 @@ struct Word {
   std::size_t begin;
 };
 
-char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 bool alnum(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 bool digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -77,7 +77,7 @@ std::vector<Word> words_of(const std::string& bare) {
     const bool hump = i > 0 && std::islower(static_cast<unsigned char>(bare[i - 1])) &&
                       std::isupper(static_cast<unsigned char>(bare[i]));
     if (i == 0 || !alnum(bare[i - 1]) || hump) words.push_back({"", i});
-    words.back().text += lower(bare[i]);
+    words.back().text += small_letter(bare[i]);
   }
   return words;
 }
@@ -98,7 +98,7 @@ void take_unit(const std::string& name, ColumnName& column) {
   const auto open = name.find_last_of("[(");
   if (open != std::string::npos && open > 0 && (name.ends_with(']') || name.ends_with(')'))) {
     const std::string inside = trimmed(name.substr(open + 1, name.size() - open - 2));
-    const bool is_axis = inside.size() == 1 && axis_of(lower(inside[0])) >= 0;
+    const bool is_axis = inside.size() == 1 && axis_of(small_letter(inside[0])) >= 0;
     if (inside.empty() || digit(inside[0]) || is_axis) return;  // an index
     column.unit = unit_symbol(inside);
     column.bare = trimmed(name.substr(0, open));

@@ -8,6 +8,7 @@
 #include <map>
 #include <new>
 
+#include "core/small_letters.h"
 #include "import/text_parts.h"
 #include "import/time_stamp.h"
 
@@ -24,9 +25,7 @@ template <std::size_t N>
 bool is_among(const std::string_view (&words)[N], std::string_view field) {
   constexpr std::size_t longest = 9;
   if (field.size() > longest || std::isdigit(static_cast<unsigned char>(field.back()))) return false;
-  const auto same = [](char one, char c) {
-    return one == static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  };
+  const auto same = [](char one, char c) { return one == small_letter(c); };
   return std::any_of(std::begin(words), std::end(words), [&](std::string_view word) {
     return std::equal(word.begin(), word.end(), field.begin(), field.end(), same);
   });
@@ -138,8 +137,7 @@ bool is_spreadsheet_error(std::string_view field) {
 
 bool is_value(const std::string& field, DecimalMark decimal) {
   if (field_number(field, decimal) || iso_time(field)) return true;
-  std::string small = field.substr(0, 5);
-  for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string small = small_letters(field.substr(0, 5));
   return small == "inf" || small == "-inf" || small == "+inf";
 }
 

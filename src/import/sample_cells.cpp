@@ -1,22 +1,17 @@
 #include "import/sample_cells.h"
 
 #include <algorithm>
-#include <cctype>
 #include <initializer_list>
 #include <limits>
 
 #include "core/error.h"
+#include "core/small_letters.h"
 #include "import/dialect.h"
 
 namespace sandstroke {
 namespace {
 
 constexpr double missing_value = std::numeric_limits<double>::quiet_NaN();
-
-std::string small_letters(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 bool is_one_of(const std::string& text, std::initializer_list<std::string_view> words) {
   return std::find(words.begin(), words.end(), text) != words.end();

@@ -1,12 +1,12 @@
 #include "import/units.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <vector>
 
 #include "core/error.h"
+#include "core/small_letters.h"
 
 namespace sandstroke {
 namespace {
@@ -57,9 +57,8 @@ constexpr ListedUnit named_units[] = {
 constexpr const char* quantity_names[] = {"length", "time", "speed", "force"};
 
 bool same_letters(std::string_view a, std::string_view b) {
-  const auto small = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [&](char one, char other) { return small(one) == small(other); });
+                    [&](char one, char other) { return small_letter(one) == small_letter(other); });
 }
 
 bool has_name(const ListedUnit& named, std::string_view name) {

@@ -3,19 +3,14 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "core/counted.h"
+#include "core/small_letters.h"
 
 namespace sandstroke {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 /// Adds the queue's data to a task whose points are counted.
 void add_queued(TaskStatus& task, const SlurmJobs& jobs, const SlurmQueue& queue) {
@@ -30,10 +25,10 @@ void add_queued(TaskStatus& task, const SlurmJobs& jobs, const SlurmQueue& queue
   if (task.alive) {
     task.state = found->held()                                      ? "held"
                  : found->restarts > 0 && found->state == "PENDING" ? "requeued"
-                                                                    : lower(found->state);
+                                                                    : small_letters(found->state);
     task.reason = found->reason;
   } else if (task.missing > 0) {
-    task.reason = lower(found->state);
+    task.reason = small_letters(found->state);
   }
 }
 
