@@ -131,12 +131,10 @@ bool is_gcode(const fs::path& path, std::string_view text) {
   return looks_like_gcode(text);
 }
 
-std::optional<SampleTable> read_format(const fs::path& path, const TableSettings& settings) {
+/// head: the file's beginning; text: the same, if it is text, without blanks around it.
+std::optional<SampleTable> read_format(const fs::path& path, const TableSettings& settings,
+                                       std::string_view head, std::string_view text) {
   const std::string& part = settings.part;
-  const bool pipe =
-      path == "-" || (fs::exists(path) && !fs::is_regular_file(path) && !fs::is_directory(path));
-  if (pipe) return {};
-  const std::string head = head_of(path);
   refuse(pointers, path, head);
   if (head.starts_with(std::string_view("SQLite format 3\0", 16))) return read_ros2_bag(path, part);
   if (head.starts_with(mcap_magic)) return read_mcap(path, part);
@@ -154,7 +152,6 @@ std::optional<SampleTable> read_format(const fs::path& path, const TableSettings
         "{}",
         path.string(), as_csv);
   }
-  const std::string_view text = without_blanks(without_byte_order_mark(head));
   if (is_inkml(text)) return read_inkml(path);
   if (looks_like_svg(text)) return read_svg(path);
   if (looks_like_unipen(text)) return read_unipen(path);
@@ -167,15 +164,13 @@ std::optional<SampleTable> read_format(const fs::path& path, const TableSettings
   return {};
 }
 
-}  // namespace
-
-std::optional<SampleTable> read_known_format(const fs::path& path, const TableSettings& settings) {
-  std::optional<SampleTable> table = read_format(path, settings);
+/// Refuses settings that would have no effect on a file which is no table of text.
+void refuse_unused_settings(const fs::path& path, const TableSettings& settings, bool has_pen_words) {
   const bool names_pen = !settings.pen_up.empty() || !settings.pen_down.empty();
-  if (table && names_pen && !is_gcode(path, head_of(path)))
+  if (names_pen && !has_pen_words)
     throw_input_error("{}: its format tells itself where the pen is up; leave out {}", path.string(),
                       option_and_key(settings.pen_up.empty() ? "pen_down" : "pen_up"));
-  if (table && !settings.columns.empty())
+  if (!settings.columns.empty())
     throw_input_error(
         "{}: its format names the columns itself; leave out {}, and choose columns by their names or numbers "
         "(stroke info shows them)",
@@ -186,9 +181,21 @@ std::optional<SampleTable> read_known_format(const fs::path& path, const TableSe
            {!settings.encoding.empty(), "encoding"},
            {settings.skip_lines > 0, "skip_lines"},
            {!settings.skip.empty(), "skip"}})
-    if (table && given)
+    if (given)
       throw_input_error("{}: is no table of text, to which alone {} belongs; leave it out", path.string(),
                         option_and_key(key));
+}
+
+}  // namespace
+
+std::optional<SampleTable> read_known_format(const fs::path& path, const TableSettings& settings) {
+  const bool pipe =
+      path == "-" || (fs::exists(path) && !fs::is_regular_file(path) && !fs::is_directory(path));
+  if (pipe) return {};
+  const std::string head = head_of(path);
+  const std::string_view text = without_blanks(without_byte_order_mark(head));
+  std::optional<SampleTable> table = read_format(path, settings, head, text);
+  if (table) refuse_unused_settings(path, settings, is_gcode(path, text));
   return table;
 }
 
