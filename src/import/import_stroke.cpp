@@ -5,7 +5,6 @@
 #include "core/error.h"
 #include "core/input_file.h"
 #include "import/formats.h"
-#include "import/joined_clock.h"
 #include "import/merge_strokes.h"
 #include "import/table_layout.h"
 #include "import/text_table.h"
@@ -47,12 +46,6 @@ SampleTable read_samples(const fs::path& path, const TableSettings& settings,
   return table.take();
 }
 
-ImportedStroke stroke_of(SampleTable table, const TableSettings& settings, const std::string& name,
-                         const std::optional<Eigen::Matrix3d>& of_first = {}) {
-  join_clock(table, table_layout(table.columns, settings, name, of_first), name);
-  return stroke_of_table(table, settings, name, of_first);
-}
-
 }  // namespace
 
 std::string samples_name(const fs::path& path) { return path == "-" ? "standard input" : path.string(); }
@@ -69,12 +62,12 @@ ImportedStroke import_stroke(const fs::path& path, const TableSettings& settings
   if (!settings.merge.empty())
     for (std::string* columns : {&of_first.force, &of_first.orientation})
       if (!is_none(*columns)) columns->clear();  // of the second table
-  ImportedStroke first = stroke_of(read_samples(path, of_first), of_first, samples_name(path));
+  ImportedStroke first = stroke_of_table(read_samples(path, of_first), of_first, samples_name(path));
   if (settings.merge.empty()) return first;
   const fs::path beside = sample_files(path, settings).back();
   const TableSettings of_second = settings_of_second(settings);
-  const ImportedStroke second =
-      stroke_of(read_samples(beside, of_second, first.axes), of_second, samples_name(beside), first.axes);
+  const ImportedStroke second = stroke_of_table(read_samples(beside, of_second, first.axes), of_second,
+                                                samples_name(beside), first.axes);
   merge_strokes(first, second, settings.merge_shift, samples_name(path), samples_name(beside));
   return first;
 }
@@ -83,7 +76,7 @@ ImportedStroke import_stroke_text(std::string_view text, const std::string& name
                                   const TableSettings& settings) {
   TextTable table(name, settings);
   table.read(text);
-  return stroke_of(table.take(), settings, name);
+  return stroke_of_table(table.take(), settings, name);
 }
 
 }  // namespace sandstroke

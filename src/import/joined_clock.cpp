@@ -7,14 +7,13 @@
 
 #include "core/error.h"
 #include "import/column_name.h"
+#include "import/missing_samples.h"
 #include "import/units.h"
 
 namespace sandstroke {
 namespace {
 
 constexpr std::int64_t ns_per_second = 1'000'000'000;
-
-bool has_fraction(double value) { return std::isfinite(value) && value != std::floor(value); }
 
 }  // namespace
 
@@ -36,11 +35,10 @@ void join_clock(SampleTable& table, const TableLayout& layout, const std::string
     if (!known(i) || (!has_fraction(fraction) && fraction >= 0.0 && fraction < per_second)) continue;
     if (!layout.time) return;  // nobody needs it
     throw_input_error(
-        "{}{}: column '{}' is taken for the {} of the whole seconds in '{}', but {:.17g} is not between 0 "
-        "and {:g}; "
-        "name the one column of the time with {}",
-        name, table.lines.empty() ? fmt::format(": sample {}", i + 1) : fmt::format(":{}", table.lines[i]),
-        fractions.name, unit, seconds.name, fraction, per_second - 1.0, option_and_key("time"));
+        "{}: column '{}' is taken for the {} of the whole seconds in '{}', but {:.17g} is not between 0 and "
+        "{:g}; name the one column of the time with {}",
+        sample_location(name, table.lines, i), fractions.name, unit, seconds.name, fraction, per_second - 1.0,
+        option_and_key("time"));
   }
   constexpr double most_seconds = 9e9;  // 64 bits hold their ns
   const std::int64_t origin = seconds.origin.value_or(0),

@@ -32,8 +32,7 @@ bool reaches_second(const SampleColumn& column, const std::string& unit) {
 }
 
 bool has_fractions(const SampleColumn& column) {
-  return std::any_of(column.values.begin(), column.values.end(),
-                     [](double value) { return std::isfinite(value) && value != std::floor(value); });
+  return std::any_of(column.values.begin(), column.values.end(), has_fraction);
 }
 
 std::vector<int> order_of(const ColumnChoices& choices) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/error.h"
 #include "import/table_layout.h"
@@ -63,6 +64,13 @@ std::string MissingSamples::text() const {
       "{} sample{} without a value in {} left out in {} gap{}, where the tool lifts; the first is {}", count,
       count == 1 ? "" : "s", fmt::join(names, ", "), gaps, gaps == 1 ? "" : "s",
       sample_location(name_, table_.lines, static_cast<std::size_t>(first)));
+}
+
+std::vector<double> finite_values(const SampleColumn& column) {
+  std::vector<double> finite;
+  std::copy_if(column.values.begin(), column.values.end(), std::back_inserter(finite),
+               [](double value) { return std::isfinite(value); });
+  return finite;
 }
 
 bool has_no_values(const SampleColumn& column) {

@@ -39,6 +39,8 @@ class MissingSamples {
   std::vector<std::size_t> columns_;  // in which a value lacks
 };
 
+/// The values that are not missing.
+std::vector<double> finite_values(const SampleColumn& column);
 /// True if a column has no finite value.
 bool has_no_values(const SampleColumn& column);
 

@@ -38,8 +38,7 @@ class PenReader {
   }
   static bool differ(double a, double b) { return a != b && (std::isfinite(a) || std::isfinite(b)); }
   static bool all_whole(const std::vector<double>& values) {
-    return std::all_of(values.begin(), values.end(),
-                       [](double value) { return !std::isfinite(value) || value == std::floor(value); });
+    return std::none_of(values.begin(), values.end(), has_fraction);
   }
   /// Strokes have two samples at least, on average.
   static bool may_be_numbers(const std::vector<double>& values) {

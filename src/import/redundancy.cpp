@@ -9,6 +9,7 @@
 
 #include "core/median.h"
 #include "haptics/stroke_pieces.h"
+#include "import/missing_samples.h"
 #include "import/units.h"
 
 namespace sandstroke {
@@ -75,13 +76,35 @@ double step_of_stamps(const std::vector<double>& stamps) {
   return repeat && std::isfinite(least) ? least : 0.0;
 }
 
+constexpr double least_jump_ratio = 20.0;    // to the fastest other steps, or the usual of few
+constexpr double least_jump_distance = 0.1;  // of the stroke's extent
+
+/// The ends of steps to samples that stand alone: the tip goes far away from where it hardly moves, and comes
+/// back at once. However many they are, as where a tracker writes -9999 for what it did not see, no hand does
+/// that.
+std::vector<std::size_t> ends_at_lone_samples(const Stroke& stroke, double least_speed,
+                                              double least_distance) {
+  constexpr double nearby = 0.1;  // of the way to the sample
+  const auto step = [&](std::size_t i) { return stroke.position[i + 1] - stroke.position[i]; };
+  std::vector<std::size_t> ends;
+  for (std::size_t i = 1; i + 1 < stroke.size(); ++i) {
+    if (!stroke.joined(i - 1) || !stroke.joined(i)) continue;
+    const double there = step(i - 1).norm(), back = step(i).norm(), nearer = std::min(there, back);
+    const double longer = std::max(stroke.time[i] - stroke.time[i - 1], stroke.time[i + 1] - stroke.time[i]);
+    const bool returns = (step(i - 1) + step(i)).norm() < nearby * nearer;
+    const bool came_slowly = i < 2 || step(i - 2).norm() < nearby * nearer;
+    const bool goes_slowly = i + 2 >= stroke.size() || step(i + 1).norm() < nearby * nearer;
+    if (returns && came_slowly && goes_slowly && nearer > least_distance && nearer > least_speed * longer)
+      ends.insert(ends.end(), {i, i + 1});
+  }
+  return ends;
+}
+
 }  // namespace
 
 std::string time_disagreement(const SampleColumn& column, const std::string& unit, double duration,
                               const std::string& by, double factor) {
-  std::vector<double> finite;
-  std::copy_if(column.values.begin(), column.values.end(), std::back_inserter(finite),
-               [](double value) { return std::isfinite(value); });
+  const std::vector<double> finite = finite_values(column);
   if (finite.size() < 2 || !(finite.back() > finite.front())) return "";
   const double span = finite.back() - finite.front();
   const double ends = 2.0 * step_of_stamps(finite);  // both stamps at the ends are rounded
@@ -155,34 +178,6 @@ std::string velocity_disagreement(const Stroke& stroke, const std::vector<std::s
   }
   return "";
 }
-
-namespace {
-
-constexpr double least_jump_ratio = 20.0;    // to the fastest other steps, or the usual of few
-constexpr double least_jump_distance = 0.1;  // of the stroke's extent
-
-/// The ends of steps to samples that stand alone: the tip goes far away from where it hardly moves, and comes
-/// back at once. However many they are, as where a tracker writes -9999 for what it did not see, no hand does
-/// that.
-std::vector<std::size_t> ends_at_lone_samples(const Stroke& stroke, double least_speed,
-                                              double least_distance) {
-  constexpr double nearby = 0.1;  // of the way to the sample
-  const auto step = [&](std::size_t i) { return stroke.position[i + 1] - stroke.position[i]; };
-  std::vector<std::size_t> ends;
-  for (std::size_t i = 1; i + 1 < stroke.size(); ++i) {
-    if (!stroke.joined(i - 1) || !stroke.joined(i)) continue;
-    const double there = step(i - 1).norm(), back = step(i).norm(), nearer = std::min(there, back);
-    const double longer = std::max(stroke.time[i] - stroke.time[i - 1], stroke.time[i + 1] - stroke.time[i]);
-    const bool returns = (step(i - 1) + step(i)).norm() < nearby * nearer;
-    const bool came_slowly = i < 2 || step(i - 2).norm() < nearby * nearer;
-    const bool goes_slowly = i + 2 >= stroke.size() || step(i + 1).norm() < nearby * nearer;
-    if (returns && came_slowly && goes_slowly && nearer > least_distance && nearer > least_speed * longer)
-      ends.insert(ends.end(), {i, i + 1});
-  }
-  return ends;
-}
-
-}  // namespace
 
 std::vector<Jump> jumps_of(const Stroke& stroke) {
   constexpr std::size_t least_steps = 3, few_steps = 20;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -18,6 +19,9 @@ struct SampleColumn {
   /// The number that was subtracted from all values: the first of a clock's stamps, which no double holds.
   std::optional<std::int64_t> origin = {};
 };
+
+/// False also for a value that is missing.
+inline bool has_fraction(double value) { return std::isfinite(value) && value != std::floor(value); }
 
 /// The unit of a column of times that were dates; its values are in ns.
 inline constexpr const char* iso_unit = "ISO 8601";

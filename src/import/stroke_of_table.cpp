@@ -8,6 +8,7 @@
 #include "haptics/gap_threshold.h"
 #include "haptics/stroke_lines.h"
 #include "import/equal_times.h"
+#include "import/joined_clock.h"
 #include "import/missing_samples.h"
 #include "import/pen_states.h"
 #include "import/redundancy.h"
@@ -44,13 +45,13 @@ Quaterniond turned(const Matrix3d& axes, const Quaterniond& q) {
 
 class StrokeMaker {
  public:
-  StrokeMaker(const SampleTable& table, const TableSettings& settings, const std::string& name,
-              const std::optional<Matrix3d>& of_first)
+  StrokeMaker(const SampleTable& table, const TableLayout& found, const TableSettings& settings,
+              const std::string& name, bool is_second)
       : table_(table),
         settings_(settings),
         name_(name),
-        is_second_(of_first.has_value()),
-        found_(table_layout(table.columns, settings, name, of_first)),
+        is_second_(is_second),
+        found_(found),
         used_(used_columns(table, found_, settings, name, is_second_)),
         layout_(used_.layout),
         lines_(table.lines) {}
@@ -289,7 +290,7 @@ class StrokeMaker {
   const TableSettings& settings_;
   const std::string& name_;
   bool is_second_;  // of two tables that are merged
-  TableLayout found_;
+  const TableLayout& found_;
   UsedColumns used_;
   const TableLayout& layout_;       // what is used of found_
   std::vector<std::size_t> lines_;  // of the samples that are not left out
@@ -298,9 +299,11 @@ class StrokeMaker {
 
 }  // namespace
 
-ImportedStroke stroke_of_table(const SampleTable& table, const TableSettings& settings,
-                               const std::string& name, const std::optional<Matrix3d>& of_first) {
-  return StrokeMaker(table, settings, name, of_first).make();
+ImportedStroke stroke_of_table(SampleTable table, const TableSettings& settings, const std::string& name,
+                               const std::optional<Matrix3d>& of_first) {
+  const TableLayout layout = table_layout(table.columns, settings, name, of_first);
+  join_clock(table, layout, name);
+  return StrokeMaker(table, layout, settings, name, of_first.has_value()).make();
 }
 
 }  // namespace sandstroke

@@ -24,7 +24,7 @@ struct ImportedStroke {
 /// Makes a stroke from a table as the settings say; what they leave open, names and units of the columns
 /// tell. of_first: the axes of the first table, with which this one is merged; positions are 0 then. The
 /// caller does the settings' merge. Error: input; `name` is the table's.
-ImportedStroke stroke_of_table(const SampleTable& table, const TableSettings& settings,
-                               const std::string& name, const std::optional<Eigen::Matrix3d>& of_first = {});
+ImportedStroke stroke_of_table(SampleTable table, const TableSettings& settings, const std::string& name,
+                               const std::optional<Eigen::Matrix3d>& of_first = {});
 
 }  // namespace sandstroke

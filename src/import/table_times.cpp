@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "import/missing_samples.h"
 #include "import/redundancy.h"
 #include "import/units.h"
 
@@ -23,9 +24,7 @@ std::string unit_of_times(const SampleColumn& column, const std::string& asked) 
   const std::string unit = digits == 10 ? "s" : digits == 13 ? "ms" : digits == 16 ? "us" : "ns";
   // The time since a computer started can have as many digits, in a smaller unit.
   constexpr double most_spacing = 10.0;  // s, between samples
-  std::vector<double> finite;
-  std::copy_if(column.values.begin(), column.values.end(), std::back_inserter(finite),
-               [](double value) { return std::isfinite(value); });
+  const std::vector<double> finite = finite_values(column);
   if (finite.empty()) return unit;
   const double span = unit_of(Quantity::time, unit).to_si(finite.back() - finite.front());
   return span > most_spacing * static_cast<double>(finite.size()) ? "" : unit;
