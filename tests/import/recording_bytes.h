@@ -14,10 +14,10 @@
 
 namespace sandstroke {
 
-/// Little-endian.
+/// Little-endian; zeros beyond its 8 bytes.
 inline std::string number_bytes(std::uint64_t value, int size) {
   std::string bytes;
-  for (int i = 0; i < size; ++i) bytes += static_cast<char>(value >> 8 * i);
+  for (int i = 0; i < size; ++i) bytes += static_cast<char>(i < 8 ? value >> 8 * i : 0);
   return bytes;
 }
 
