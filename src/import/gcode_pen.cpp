@@ -36,7 +36,7 @@ bool has_m(const GcodeWords& words, int code) {
   return std::find(words.m.begin(), words.m.end(), code) != words.m.end();
 }
 bool has_spindle_word(const GcodeWords& words) {
-  return has_m(words, 30) || has_m(words, 40) || has_m(words, 50);
+  return std::any_of(words.m.begin(), words.m.end(), is_spindle_word);
 }
 
 std::string m_and_s(int m, double s) { return fmt::format("{} S{}", gcode_word_text('M', m), s); }
@@ -104,7 +104,7 @@ void GcodePen::take(const GcodeWords& words, std::size_t line) {
 void GcodePen::take_spindle(const GcodeWords& words, std::size_t line) {
   const bool switches = has_spindle_word(words);
   for (const int code : words.m)
-    if (code == 30 || code == 40 || code == 50) spindle_ = code;
+    if (is_spindle_word(code)) spindle_ = code;
   if (switches && spindle_ != 50 && !has_spindle_) {
     has_spindle_ = true;
     first_spindle_ = spindle_;

@@ -10,6 +10,9 @@
 
 namespace sandstroke {
 
+/// True for M3, M4 and M5; m: the number times 10.
+inline bool is_spindle_word(int m) { return m == 30 || m == 40 || m == 50; }
+
 /// The word of a program that lifts or lowers a pen: "M280 S90", "M5", "G0".
 struct GcodePenWord {
   std::string text;
@@ -19,7 +22,7 @@ struct GcodePenWord {
   GcodeWords::Values values = {};
 
   bool given() const { return !text.empty(); }
-  bool of_spindle() const { return m == 30 || m == 40 || m == 50; }
+  bool of_spindle() const { return is_spindle_word(m); }
 };
 
 /// GcodePen::word() of an engraver, with M3 and M5, or S.
