@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "core/counted.h"
 #include "core/error.h"
 
 namespace sandstroke {
@@ -32,10 +33,9 @@ bool take_clock(const StoredNumbers& numbers, std::size_t k, SampleColumn& colum
 std::string listed(const std::vector<NamedArray>& arrays) {
   constexpr std::size_t most = 20;
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < std::min(arrays.size(), most); ++i)
-    names.push_back(fmt::format("{} ({} x {})", arrays[i].name, arrays[i].samples, arrays[i].width));
-  return fmt::format("{}{}", fmt::join(names, ", "),
-                     arrays.size() > most ? fmt::format(" and {} more", arrays.size() - most) : "");
+  for (const NamedArray& array : arrays)
+    names.push_back(fmt::format("{} ({} x {})", array.name, array.samples, array.width));
+  return first_of(std::move(names), most);
 }
 
 /// The arrays to take, all of one length.

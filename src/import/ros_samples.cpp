@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "core/counted.h"
 #include "core/error.h"
 #include "import/ros_message.h"
 
@@ -129,11 +130,7 @@ SampleTable RosSampleReader::table(const std::string& part) {
 /// At most as many as a person reads.
 std::string list_of_names(std::vector<std::string> names) {
   constexpr std::size_t most = 40;
-  const std::size_t more = names.size() - std::min(names.size(), most);
-  names.resize(names.size() - more);
-  return names.empty()
-             ? "none"
-             : fmt::format("{}{}", fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+  return names.empty() ? "none" : first_of(std::move(names), most);
 }
 
 void RosSampleReader::ask(const std::string& part, const std::vector<RosPart>& fit) {

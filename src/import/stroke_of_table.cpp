@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/counted.h"
 #include "core/error.h"
 #include "haptics/gap_threshold.h"
 #include "haptics/stroke_lines.h"
@@ -104,11 +105,7 @@ class StrokeMaker {
     std::vector<std::string> left;
     for (std::size_t i = 0; i < used.size(); ++i)
       if (!used[i]) left.push_back(table_.columns[i].name);
-    if (left.empty()) return;
-    const std::size_t more = left.size() - std::min(left.size(), most);
-    left.resize(left.size() - more);
-    tell(fmt::format("not used: {}{}", fmt::join(left, ", "),
-                     more > 0 ? fmt::format(" and {} more", more) : ""));
+    if (!left.empty()) tell("not used: " + first_of(std::move(left), most));
   }
 
   void take_columns() {
