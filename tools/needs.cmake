@@ -26,6 +26,7 @@ sandstroke_needs(CLI11_FOUND libcli11-dev "CLI11 (command lines)" "find_package(
 sandstroke_needs(tomlplusplus_FOUND libtomlplusplus-dev "toml++ (scenes)" "find_package(tomlplusplus QUIET)")
 sandstroke_needs(nlohmann_json_FOUND nlohmann-json3-dev "nlohmann/json (pages)" "find_package(nlohmann_json QUIET)")
 sandstroke_needs(PNG_FOUND libpng-dev "libpng (pictures)" "find_package(PNG QUIET)")
+sandstroke_needs(TIFF_FOUND libtiff-dev "libtiff 4.5 (maps of heights)" "pkg_check_modules(TIFF QUIET IMPORTED_TARGET libtiff-4>=4.5)")
 sandstroke_needs(ZLIB_FOUND zlib1g-dev "zlib (run files)" "find_package(ZLIB QUIET)")
 sandstroke_needs(Boost_FOUND libboost-dev "Boost 1.74 (Beast and Asio: the live view)" "find_package(Boost 1.74 CONFIG QUIET)")
 sandstroke_needs(HDF5_FOUND libhdf5-dev "HDF5 (run files)" "pkg_check_modules(HDF5 QUIET IMPORTED_TARGET hdf5)")

@@ -18,8 +18,12 @@ CLI::Validator not_negative_number();
 CLI::Validator finite_number();
 CLI::Validator number_within(Range range);
 
-/// Adds --set, which overrides keys of a scene. For load_scene.
+/// Adds --set, which overrides keys of a scene, and --unset, which takes them out. For load_scene. Returns
+/// --set.
 CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrides);
+
+/// The option that gives an override: "--set key=value" or "--unset key".
+std::string scene_option(const std::string& override_text);
 
 /// The files that shells offer for a stroke: scripts, recordings, and all that `stroke convert` reads.
 inline constexpr const char* stroke_file_type = "FILE.toml|.h5|.csv|.txt|.thr|.gcode|.mat|.mcap|.db3|.bag";

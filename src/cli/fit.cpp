@@ -98,15 +98,15 @@ void warn_of(const ForceFit& fit, const FittedLaw& law) {
 }
 
 /// Says how to play a scene with the fitted constants, or why no scene can have them.
-void show_use(const ForceFit& fit, const FitArguments& arguments) {
+void show_use(const ForceFit& fit, const FitArguments& arguments, const SceneFile& fitted) {
   const std::vector<std::string> settings = settings_of(fit);
-  std::vector<std::string> overrides = arguments.overrides;
-  overrides.insert(overrides.end(), settings.begin(), settings.end());
+  std::string options;
+  for (const std::string& one : arguments.overrides) options += " " + scene_option(one);
+  for (const std::string& one : settings) options += " " + scene_option(one);
   try {
-    const Scene scene = load_scene(arguments.scene, overrides);
+    const Scene scene = scene_from_text(scene_text(fitted), arguments.scene, settings);
     const std::string doubt = make_device_force(scene)->theory_warning(scene, 0.0);
-    if (!arguments.json)
-      print_row("to use it", fmt::format("sandstroke run SCENE --set {}", fmt::join(overrides, " --set ")));
+    if (!arguments.json) print_row("to use it", "sandstroke run SCENE" + options);
     if (!doubt.empty()) spdlog::warn("{}", doubt);
   } catch (const Error& refusal) {
     spdlog::warn("no scene can have these constants: {}. Is the force in newtons, and are tool and {} right?",
@@ -118,7 +118,7 @@ int fit(const FitArguments& arguments) {
   const fs::path scene_path = arguments.scene;
   std::vector<std::string> overrides = arguments.overrides;
   if (!arguments.stroke.empty()) overrides.push_back(stroke_override(arguments.stroke));
-  const Scene scene = load_scene(scene_path, overrides);
+  const SceneFile scene = load_scene(scene_path, overrides);
   const FittedLaw& law = fitted_law(scene.force.law);
   const std::vector<bool> asked = chosen_constants(law.constants, arguments.constants);
   catch_interrupts();
@@ -129,7 +129,7 @@ int fit(const FitArguments& arguments) {
   else
     print_fit(*found);
   if (explains(*found))
-    show_use(*found, arguments);
+    show_use(*found, arguments, scene);
   else
     warn_of(*found, law);
   return 0;

@@ -142,7 +142,8 @@ void add_golden_command(CLI::App& app, Command& chosen) {
       "Example:  sandstroke golden check wscg --force-tolerance 0.001\n"
       "A file tolerances.toml in the folder of a golden entry sets tolerances for that scene alone, with "
       "lines\n"
-      "such as 'force = 0.001': height, force, depth, pixel, pixel_share. Options override them.");
+      "such as 'force = 0.001': height, force, depth, pixel, pixel_share, pixel_above. Options override "
+      "them.");
   check_command->callback([arguments, &chosen] { chosen = [arguments] { return check(*arguments); }; });
 
   CLI::App* update_command =

@@ -7,6 +7,7 @@
 #include "cli/command_tree.h"
 #include "cli/help_formatter.h"
 #include "core/version.h"
+#include "core/warning.h"
 #include "io/scene_keys.h"
 #include "io/stroke_script_toml.h"
 #include "sweep/metrics.h"
@@ -93,6 +94,14 @@ std::string command_text(const NamedCommand& command) {
   return text;
 }
 
+std::vector<KeySection> warning_keys() {
+  KeySection section{
+      "", "warnings of sandstroke run: word (\"code\" in --json), section of the scene, meaning", {}};
+  for (const WarningKind& kind : warning_kinds)
+    section.keys.push_back({kind.word, fmt::format("[{}]", kind.section), "", "", kind.meaning});
+  return {section};
+}
+
 /// Every key with its default, unit and meaning.
 std::string keys_text(const std::vector<KeySection>& sections) {
   std::string text;
@@ -118,6 +127,8 @@ const std::vector<HelpTopic>& help_topics() {
       {"script", "strokes written as text (TOML)", keys_with_defaults, script_keys},
       {"plan", "plan for sandstroke sweep (TOML)", keys_with_defaults, all_plan_keys},
       {"metrics", "metrics of sandstroke sweep", "Every metric with its unit and definition.", metric_keys},
+      {"warnings", "warnings of sandstroke run", "Every warning with its word, and the section of the scene.",
+       warning_keys},
   };
   return topics;
 }

@@ -8,7 +8,7 @@
 
 namespace sandstroke {
 
-/// The topic of a manual page: a kind of file that people write, or the metrics.
+/// The topic of a manual page: a kind of file that people write, the metrics, or the warnings.
 struct HelpTopic {
   const char* name;
   const char* title;  ///< one line
@@ -16,7 +16,7 @@ struct HelpTopic {
   std::vector<KeySection> (*keys)();
 };
 
-/// scene, script, plan and metrics.
+/// scene, script, plan, metrics and warnings.
 const std::vector<HelpTopic>& help_topics();
 
 // Manual pages for man(1), in its language (roff).

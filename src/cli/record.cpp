@@ -24,6 +24,7 @@
 #include "record/felt_loop_text.h"
 #include "record/journal.h"
 #include "record/real_time.h"
+#include "sim/tool_fit.h"
 
 namespace sandstroke {
 namespace {
@@ -165,6 +166,7 @@ std::optional<SceneFile> felt_scene(const RecordArguments& arguments) {
           "unknown; remove it from the scene",
           arguments.felt_scene, key, name);
   scene.tool = with_mesh(scene.tool, fs::path(arguments.felt_scene).parent_path());
+  check_tool_fits(scene, arguments.felt_scene);
   return scene;
 }
 
@@ -296,6 +298,7 @@ void add_force_options(CLI::App& app, RecordArguments& arguments) {
                    ->type_name("FILE.toml")
                    ->option_text("SCENE.toml");
   add_set_option(app, arguments.overrides)->needs(feel);
+  app.get_option("--unset")->needs(feel);
   app.add_option("--max-force", force.max_force,
                  "Largest force on the hand [N]. Default: the limit of the device or the scene")
       ->check(not_negative_number())

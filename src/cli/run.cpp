@@ -1,5 +1,6 @@
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -13,7 +14,6 @@
 #include "cli/standard_output.h"
 #include "core/error.h"
 #include "core/interrupt.h"
-#include "core/log.h"
 #include "core/output_file.h"
 #include "io/film_file.h"
 #include "io/input_kind.h"
@@ -43,7 +43,7 @@ struct RunArguments {
   std::string estimate_error;  // coarser, finer or empty
   bool error_map = false;
   bool view = false, no_open = false;
-  bool json = false;
+  bool json = false, strict = false;
 };
 
 void print_summary(const RunResult& r, const Scene& scene, const std::string& output) {
@@ -158,6 +158,16 @@ int draw(const RunArguments& arguments, const SceneFile& scene, const std::strin
   return exit_code;
 }
 
+/// "not-at-rest ([relaxation]), ...", each word once.
+std::string doubts_text(const std::vector<Warning>& warnings) {
+  std::vector<std::string> words;
+  for (const Warning& warning : warnings) {
+    const std::string word = fmt::format("{} ([{}])", warning.kind().word, warning.kind().section);
+    if (std::find(words.begin(), words.end(), word) == words.end()) words.push_back(word);
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
 int run(const RunArguments& arguments) {
   const fs::path scene_path = arguments.scene;
   std::vector<std::string> overrides = arguments.overrides;
@@ -175,7 +185,10 @@ int run(const RunArguments& arguments) {
     options.onlooker = [&](const Simulation& simulation) -> SimulationObserver& {
       return view.emplace(simulation, fs::path(output).filename().string(), !arguments.no_open);
     };
-  const RunResult result = run_scene(scene, output, options);
+  RunResult result = run_scene(scene, output, options);
+  std::vector<Warning> found;
+  if (!result.interrupted) found = warnings_of_run(result, scene);
+  result.warnings.insert(result.warnings.end(), found.begin(), found.end());
   if (view) view->end(result.interrupted ? "the run was interrupted" : "the run is complete");
 
   const std::string written = result.interrupted ? part_path(output).string() : output;
@@ -186,11 +199,16 @@ int run(const RunArguments& arguments) {
   }
   if (result.interrupted) return 128 + interrupted();
   if (const int exit_code = draw(arguments, scene, output); exit_code != 0) return exit_code;
-  warn_of_run(result, scene);
+  for (const Warning& warning : found) warn(warning);
   if (view && view->lag())
     spdlog::warn(
         "the run was up to {:.2f} s behind real time. The result is the same; fewer bed.cells are faster",
         *view->lag());
+  if (arguments.strict && !result.warnings.empty()) {
+    spdlog::error("--strict: the result is doubtful: {}; sandstroke help warnings explains the words",
+                  doubts_text(result.warnings));
+    return static_cast<int>(ErrorKind::unstable);
+  }
   if (!result.relaxation.converged || result.device.swings_from) return static_cast<int>(ErrorKind::unstable);
   if (options.second && !result.error)  // the run is complete, but the estimate failed
     return interrupted() ? 128 + interrupted() : static_cast<int>(ErrorKind::unstable);
@@ -248,6 +266,10 @@ void add_run_command(CLI::App& app, Command& chosen) {
       "it. Prints the address, and opens it on a desktop. The result is the same");
   command->add_flag("--no-open", arguments->no_open, "Print the address of --view, but do not open it")
       ->needs(shown);
+  command->add_flag(
+      "--strict", arguments->strict,
+      "Exit with code 3 if there is any warning of the run. Its word (\"code\" in --json) and the "
+      "section of the scene that it concerns are printed. All words: sandstroke help warnings");
   command->add_flag("--json", arguments->json, "Print the summary as one JSON object");
   command->footer(
       "Examples\n"

@@ -8,8 +8,8 @@
 #include "cli/stroke_parts.h"
 #include "cli/table_options.h"
 #include "core/error.h"
-#include "core/log.h"
 #include "core/output_file.h"
+#include "core/warning.h"
 #include "haptics/stroke_coverage.h"
 #include "import/import_stroke.h"
 #include "io/stroke_file.h"
@@ -28,7 +28,7 @@ void write_and_tell(const std::string& file, const Stroke& stroke) {
                summary.duration, 1e3 * (summary.high.x() - summary.low.x()),
                1e3 * (summary.high.y() - summary.low.y()), 1e3 * (summary.high.z() - summary.low.z()),
                summary.gaps.size());
-  warn_if_any(coverage_warning(stroke, file));
+  warn_if_any(WarningCode::stroke_gaps, coverage_warning(stroke, file));
 }
 
 // --- script ---
@@ -108,7 +108,7 @@ void add_convert(CLI::App& stroke_app, Command& chosen) {
           options->source.empty() ? samples_name(fs::path(options->in).filename()) : options->source;
       write_and_tell(options->out, imported.stroke);
       if (options->json) print_json(stroke_json(options->out, imported.stroke));
-      for (const std::string& warning : imported.warnings) spdlog::warn("{}", warning);
+      for (const std::string& warning : imported.warnings) warn({WarningCode::stroke_import, warning});
       spdlog::info("{}: {}", options->in, imported.description);
       return 0;
     };

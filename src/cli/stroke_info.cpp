@@ -9,9 +9,9 @@
 #include "cli/stroke_parts.h"
 #include "cli/table_options.h"
 #include "core/error.h"
-#include "core/log.h"
 #include "core/median.h"
 #include "core/terminal_text.h"
+#include "core/warning.h"
 #include "haptics/stroke_coverage.h"
 #include "haptics/stroke_quality.h"
 #include "import/table_layout.h"
@@ -227,9 +227,9 @@ void add_stroke_info_command(CLI::App& stroke_app, Command& chosen) {
       } else {
         print_text("{}", as_table(options->file, stroke, summarize(stroke), quality, recording));
       }
-      warn_if_any(coverage_warning(stroke, options->file));
+      warn_if_any(WarningCode::stroke_gaps, coverage_warning(stroke, options->file));
       for (const std::string& warning : quality_warnings(quality))
-        spdlog::warn("{}: {}", options->file, warning);
+        warn({WarningCode::stroke_quality, fmt::format("{}: {}", options->file, warning)});
       return 0;
     };
   });

@@ -41,19 +41,21 @@ Shard parse_shard(const std::string& text) {
   return shard;
 }
 
-/// The first points of a sweep, as a table.
-Table first_points(const SweepDesign& design, std::size_t most) {
-  const std::size_t shown = std::min(most, design.points());
-  std::vector<double> indices;
-  for (std::size_t point = 0; point < shown; ++point) indices.push_back(static_cast<double>(point));
-  Table table{{{"point", "point", "", indices}}};
+/// The first points of a sweep and its last one, as a table; dots where points are not shown.
+std::string points_text(const SweepDesign& design) {
+  constexpr std::size_t most = 6;
+  std::vector<std::size_t> shown;
+  for (std::size_t point = 0; point < std::min(most - 1, design.points()); ++point) shown.push_back(point);
+  if (design.points() >= most) shown.push_back(design.points() - 1);
+  Table table{{{"point", "point", "", std::vector<double>(shown.begin(), shown.end())}}};
   for (std::size_t i = 0; i < design.axes.size(); ++i) {
     std::vector<std::string> labels;
-    for (std::size_t point = 0; point < shown; ++point)
-      labels.push_back(design.axes[i].label(design.value_at(point, i)));
+    for (const std::size_t point : shown) labels.push_back(design.axes[i].label(design.value_at(point, i)));
     table.columns.push_back({design.axes[i].key, design.axes[i].key, design.axes[i].unit, labels});
   }
-  return table;
+  std::string text = aligned_text(table, 9);
+  if (design.points() > most) text.insert(text.rfind('\n', text.size() - 2) + 1, "...\n");
+  return text;
 }
 
 std::string duration(double seconds) {
@@ -75,20 +77,24 @@ int dry_run(Sweep& sweep, const SweepArguments& arguments) {
   const SweepDesign& design = sweep.plan().design;
   warn_of_depth(sweep);
   if (!sweep.refused().empty())
-    spdlog::warn("the settings of {} points contradict each other; the first is point {}: {}",
-                 sweep.refused().size(), sweep.refused().begin()->first, sweep.refused().begin()->second);
+    spdlog::warn(
+        "the settings of {} points{} contradict each other; the first is point {}: {}",
+        sweep.refused().size(),
+        sweep.looked_at() < design.points() ? fmt::format(" of {} looked at", sweep.looked_at()) : "",
+        sweep.refused().begin()->first, sweep.refused().begin()->second);
   if (arguments.json) {
     print_json(nlohmann::ordered_json{{"points", design.points()},
                                       {"simulations", sweep.simulations()},
+                                      {"looked_at", sweep.looked_at()},
                                       {"refused", sweep.refused().size()},
                                       {"seconds_on_one_core", estimate.seconds},
                                       {"bytes", estimate.bytes}});
     return 0;
   }
-  print_text("{}", aligned_text(first_points(design, 5), 9));
-  if (design.points() > 5) print_text("...\n");
-  print_text("\n{} points need {} simulations: about {} on one core and {:.3g} MB, measured on one point\n",
-             design.points(), sweep.simulations(), duration(estimate.seconds), estimate.bytes * 1e-6);
+  print_text("{}", points_text(design));
+  print_text("\n{} points need {}{} simulations: about {} on one core and {:.3g} MB, measured on one point\n",
+             design.points(), sweep.looked_at() < design.points() ? "about " : "", sweep.simulations(),
+             duration(estimate.seconds), estimate.bytes * 1e-6);
   return 0;
 }
 
@@ -127,8 +133,9 @@ int sweep(const SweepArguments& arguments) {
   options.jobs = arguments.jobs;
   options.shard = parse_shard(arguments.shard);
   SweepPlan plan = load_plan(arguments.plan);
+  for (const std::string& note : plan.notes) spdlog::info("{}", note);
   catch_interrupts();
-  Sweep sweep(std::move(plan));
+  Sweep sweep(std::move(plan), arguments.dry_run ? LookAt::some : LookAt::all);
   if (interrupted()) return 128 + interrupted();
   if (arguments.dry_run) return dry_run(sweep, arguments);
 
@@ -213,9 +220,10 @@ void add_sweep_command(CLI::App& app, Command& chosen) {
       command->add_option("--shard", arguments->shard, "Run only part I of N, for example 1/4")
           ->type_name("I/N");
   command
-      ->add_flag(
-          "--dry-run", arguments->dry_run,
-          "Run nothing. Print the number of points, the first points, and the time and memory expected")
+      ->add_flag("--dry-run", arguments->dry_run,
+                 "Run nothing but one point. Print the number of points, the first ones and the last, and "
+                 "the time and "
+                 "memory expected. Looks at 1000 points at most")
       ->excludes(shard);
   command->add_flag("--json", arguments->json, "Print the summary as one JSON object");
   add_slurm_options(*command, arguments->slurm);

@@ -1,4 +1,4 @@
-#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -28,6 +28,20 @@ std::vector<SlurmTask> tasks_to_do(const SweepFolder& folder, const std::vector<
   return tasks;
 }
 
+/// Submits a task for each of `of` parts; half as many, while the cluster refuses their number.
+SlurmJobs submit_or_halve(const SlurmOptions& options, const SlurmWork& work, const SweepFolder& folder,
+                          const std::vector<PointGroup>& groups, int of) {
+  while (true) {
+    try {
+      return submit_to_slurm(options, work, tasks_to_do(folder, groups, of), of);
+    } catch (const TooManyTasks& refused) {
+      if (of == 1) throw;
+      spdlog::info("{}: tries {} tasks instead of {}", refused.what(), of / 2, of);
+      of /= 2;
+    }
+  }
+}
+
 }  // namespace
 
 void add_slurm_options(CLI::App& sweep, SlurmArguments& arguments) {
@@ -38,7 +52,8 @@ void add_slurm_options(CLI::App& sweep, SlurmArguments& arguments) {
   const auto add = [&](const char* name, auto& value, const char* text) {
     return sweep.add_option(name, value, text)->needs(slurm)->group("With --slurm");
   };
-  add("--tasks", options.tasks, "Number of tasks of the job array. Default: 4 simulations per core")
+  add("--tasks", options.tasks,
+      "Number of tasks of the job array. Default: 4 simulations per core. Never more than the cluster takes")
       ->check(CLI::Range(1, 1000000));
   add("--cpus-per-task", options.cpus_per_task, "Cores per task. A task runs that many simulations at once")
       ->check(CLI::Range(1, 1024))
@@ -54,10 +69,14 @@ void add_slurm_options(CLI::App& sweep, SlurmArguments& arguments) {
 int submit_sweep(const SlurmArguments& arguments, const fs::path& plan, const SweepFolder& folder,
                  const std::vector<PointGroup>& groups, bool json) {
   const SlurmOptions& options = arguments.options;
-  const int of = options.tasks > 0 ? std::min(options.tasks, static_cast<int>(groups.size()))
-                                   : default_tasks(groups.size(), options.cpus_per_task);
-  std::vector<SlurmTask> tasks = tasks_to_do(folder, groups, of);
-  if (tasks.empty()) {
+  int of = options.tasks > 0 ? std::min(options.tasks, static_cast<int>(groups.size()))
+                             : default_tasks(groups.size(), options.cpus_per_task);
+  const SlurmLimits limits = ask_slurm_limits();
+  if (const int most = limits.most_tasks(); of > most) {
+    spdlog::info("{} tasks instead of {}, because the cluster takes no more ({})", most, of, limits.text());
+    of = most;
+  }
+  if (tasks_to_do(folder, groups, of).empty()) {
     if (json)
       print_json(nlohmann::ordered_json{{"folder", folder.path().string()}, {"tasks", 0}});
     else
@@ -65,7 +84,7 @@ int submit_sweep(const SlurmArguments& arguments, const fs::path& plan, const Sw
     return 0;
   }
   const SlurmWork work{fs::read_symlink("/proc/self/exe"), fs::current_path(), plan, folder.path()};
-  const SlurmJobs jobs = submit_to_slurm(options, work, std::move(tasks), of);
+  const SlurmJobs jobs = submit_or_halve(options, work, folder, groups, of);
   if (json)
     print_json(nlohmann::ordered_json{{"folder", folder.path().string()},
                                       {"tasks", jobs.tasks.size()},

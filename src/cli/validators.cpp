@@ -35,11 +35,31 @@ CLI::Validator number_within(Range range) {
 }
 
 CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrides) {
-  return command
-      .add_option("--set", overrides, "Override a scene key, such as relaxation.talus_angle=35 (repeatable)")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false)  // takes one value each time
+  CLI::Option* set =
+      command
+          .add_option("--set", overrides,
+                      "Override a scene key, such as relaxation.talus_angle=35 (repeatable). Another choice, "
+                      "such as tool.shape=plate, leaves out what the scene sets for the old one, and says so")
+          ->type_name("KEY=VALUE")
+          ->allow_extra_args(false)  // takes one value each time
+          ->take_all();
+  // Defined after --set, which replaces the list: what is taken out comes first.
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--unset",
+          [&overrides](const std::vector<std::string>& keys) {
+            for (const std::string& key : keys) overrides.insert(overrides.begin(), "!" + key);
+          },
+          "Take a key or a section out of the scene, such as stroke (repeatable)")
+      ->type_name("KEY")
+      ->allow_extra_args(false)
       ->take_all();
+  return set;
+}
+
+std::string scene_option(const std::string& override_text) {
+  const bool unset = override_text.starts_with('!') && override_text.find('=') == std::string::npos;
+  return unset ? "--unset " + override_text.substr(1) : "--set " + override_text;
 }
 
 std::string stroke_override(const std::string& file) {

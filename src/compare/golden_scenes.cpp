@@ -37,6 +37,20 @@ std::string missing_input(const fs::path& scene_file) {
   return "";
 }
 
+/// Refuses a result with which a run ends in exit code 3.
+void refuse_doubtful(const fs::path& scene, const RunResult& result) {
+  const auto refuse = [&](const std::string& reason, const char* remedy) {
+    throw Error(ErrorKind::unstable, fmt::format("{}: {}, so the golden entry stays as it was; {}",
+                                                 scene.string(), reason, remedy));
+  };
+  if (!result.relaxation.converged)
+    refuse(fmt::format("the sand is not at rest (residual {:.2e})", result.relaxation.residual),
+           "raise relaxation.max_passes or relaxation.tolerance");
+  if (result.device.swings_from)
+    refuse(fmt::format("from {:.3f} s on the device swings by itself", *result.device.swings_from),
+           "run the scene to see what to change");
+}
+
 }  // namespace
 
 GoldenEntry GoldenFolders::entry(const std::string& name) const {
@@ -125,6 +139,7 @@ bool update_golden(const std::string& name, const GoldenFolders& folders, const 
   const TemporaryFolder folder;
   const GoldenRun run = runner(scene, folder / "run.h5");
   if (run.result.interrupted) return false;
+  refuse_doubtful(scene, run.result);
   write_golden(entry, run);
   return true;
 }

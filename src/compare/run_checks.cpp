@@ -108,13 +108,16 @@ std::vector<Check> trace_checks(const std::optional<std::vector<TickRecord>>& go
 }
 
 std::vector<Check> picture_checks(const Image& golden, const Image& run, const Tolerances& tolerances) {
-  const ImageDifference difference = image_difference(golden, run);
+  const ImageDifference difference = image_difference(golden, run, tolerances.pixel_above);
   return {limit_check("picture", difference.max, tolerances.pixel, "/255",
                       difference.max == 0 ? "the same in every pixel"
                                           : fmt::format("differs by {}/255 at pixel x = {}, y = {}",
                                                         difference.max, difference.x, difference.y)),
           limit_check("picture share", 100.0 * difference.fraction, 100.0 * tolerances.pixel_share, "%",
-                      fmt::format("{:.4g} % of the pixels differ", 100.0 * difference.fraction))};
+                      fmt::format("{:.4g} % of the pixels differ{}", 100.0 * difference.fraction,
+                                  tolerances.pixel_above > 0.0
+                                      ? fmt::format(" by more than {}/255", tolerances.pixel_above)
+                                      : ""))};
 }
 
 void add_checks(std::vector<Check>& checks, const std::string& name,

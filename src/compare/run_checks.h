@@ -34,7 +34,8 @@ std::vector<Check> trace_checks(const std::optional<std::vector<TickRecord>>& go
                                 const std::optional<std::vector<TickRecord>>& run,
                                 const Tolerances& tolerances);
 
-/// The largest difference of two pictures, and the fraction of their pixels that differ.
+/// The largest difference of two pictures, and the fraction of their pixels that differ by more than
+/// pixel_above.
 std::vector<Check> picture_checks(const Image& golden, const Image& run, const Tolerances& tolerances);
 
 /// Appends what `make` returns, with the time it took. Where the data is missing or damaged (Error: input),

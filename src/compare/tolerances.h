@@ -16,7 +16,8 @@ struct Tolerances {
   double force = 1e-4;        ///< N, on the device, any tick
   double depth = 1e-6;        ///< m, depth and level, any tick
   double pixel = 2.0;         ///< of 255, any channel of any pixel
-  double pixel_share = 1e-3;  ///< 0 to 1, pixels that differ at all
+  double pixel_share = 1e-3;  ///< 0 to 1, pixels that differ by more than pixel_above
+  double pixel_above = 0.0;   ///< of 255; 0: pixels that differ at all
 };
 
 /// One tolerance, as files and options give it.
@@ -34,7 +35,7 @@ struct ToleranceKey {
     return {.lowest = golden_least, .highest = range.highest, .whole = range.whole};
   }
 };
-inline constexpr std::array<ToleranceKey, 5> tolerance_keys{{
+inline constexpr std::array<ToleranceKey, 6> tolerance_keys{{
     {"height", "--height-tolerance", &Tolerances::height, not_negative, 1e-9, "m",
      "Largest difference of height"},
     {"force", "--force-tolerance", &Tolerances::force, not_negative, 1e-5, "N",
@@ -54,7 +55,16 @@ inline constexpr std::array<ToleranceKey, 5> tolerance_keys{{
      {0.0, 1.0},
      0.0,
      "",
-     "Fraction of pixels that may differ"},
+     "Fraction of pixels that may differ by more than pixel_above"},
+    {"pixel_above",
+     "--pixel-above",
+     &Tolerances::pixel_above,
+     {.lowest = 0.0, .highest = 255.0, .whole = true},
+     0.0,
+     "of 255",
+     "Channel difference beyond which a pixel counts for the fraction. At most 0.1 % of the pixels may "
+     "differ by "
+     "more than 4: --pixel-above 4 --pixel-share 0.001 --pixel-tolerance 255"},
 }};
 
 /// Tolerances that somebody set, by name.

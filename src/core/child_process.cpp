@@ -83,6 +83,18 @@ ChildResult result_of(int status, const ChildOutputs& outputs) {
 
 }  // namespace
 
+std::string one_line(const std::string& lines) {
+  std::string line;
+  for (const char c : lines) {
+    if (c == '\r') continue;
+    if (c != '\n')
+      line += c;
+    else if (!line.empty() && !line.ends_with("; "))
+      line += "; ";
+  }
+  return line;
+}
+
 std::optional<FedChild> FedChild::start(const std::vector<std::string>& words) {
   ChildOutputs outputs = outputs_of(words[0]);
   int ends[2];  // sockets, not a pipe: writing to a child that has ended raises no SIGPIPE

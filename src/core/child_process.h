@@ -18,6 +18,9 @@ struct ChildResult {
   std::string out, err;  ///< what it wrote, without white space at the end
 };
 
+/// The lines that a program wrote, as one line: "one; two".
+std::string one_line(const std::string& lines);
+
 /// A child's output, in files without a name. A child that writes much to both never waits for a reader.
 struct ChildOutputs {
   struct Close {

@@ -66,6 +66,11 @@ void InputFile::seek(std::uint64_t byte) {
   rest_ = {};
 }
 
+bool is_pipe(const fs::path& path) {
+  std::error_code not_there;
+  return fs::is_fifo(path, not_there);
+}
+
 void check_readable(const fs::path& path) { const InputFile opens(path); }
 
 void check_can_be_read_whole(const fs::path& path) {

@@ -33,6 +33,9 @@ class InputFile {
   std::string_view rest_;        // the part of the block that was not given out yet
 };
 
+/// True for a pipe: it can be read only once.
+bool is_pipe(const std::filesystem::path& path);
+
 /// Error: io, unless it is a regular file that can be opened.
 void check_readable(const std::filesystem::path& path);
 

@@ -33,8 +33,4 @@ void start_log(bool quiet) {
   spdlog::set_default_logger(logger);
 }
 
-void warn_if_any(const std::string& sentence) {
-  if (!sentence.empty()) spdlog::warn("{}", sentence);
-}
-
 }  // namespace sandstroke

@@ -8,7 +8,7 @@ namespace sandstroke {
 namespace {
 
 // Beyond these limits, speeds between samples and the cubic terms of a curve through them are not finite.
-constexpr double most = 1e50;         // s, m
+constexpr double most = most_in_stroke;
 constexpr double least_step = 1e-50;  // s
 
 void check_length(std::size_t length, const char* column, const Stroke& stroke, const std::string& name) {
@@ -80,6 +80,11 @@ void check_stroke(const Stroke& stroke, const std::string& name) {
         stroke.position[i].x(), stroke.position[i].y(), stroke.position[i].z(), most);
   }
   if (!stroke.velocity.empty()) check_vectors(stroke.velocity, "velocity", stroke, name);
+  for (std::size_t i = 0; i < stroke.velocity.size(); ++i)
+    if (!(stroke.velocity[i].array().abs() <= most).all())
+      throw_input_error(
+          "{}: velocity of sample {} is ({}, {}, {}) m/s, beyond {} m/s; correct or remove that sample", name,
+          i, stroke.velocity[i].x(), stroke.velocity[i].y(), stroke.velocity[i].z(), most);
   if (!stroke.force.empty()) check_vectors(stroke.force, "force", stroke, name);
   if (!stroke.orientation.empty()) check_orientation(stroke, name);
   if (!stroke.pressure.empty()) check_length(stroke.pressure.size(), "pressure", stroke, name);

@@ -70,9 +70,12 @@ void visit_columns(AnyStroke& stroke, const Visit& visit) {
 void keep_samples(Stroke& stroke, std::size_t begin, std::size_t end);
 void keep_samples(Stroke& stroke, const std::vector<std::size_t>& samples);
 
+/// Largest time, coordinate and speed [s, m, m/s]. Beyond it, what follows from them is not finite.
+inline constexpr double most_in_stroke = 1e50;
+
 /// Checks what every reader and maker of a stroke guarantees: at least one sample, columns of equal length,
-/// finite numbers, times and positions of at most 1e50, times that increase by at least 1e-50 s. Error:
-/// input; `name` says which stroke, the sentence names column and sample.
+/// finite numbers, times, positions and velocities of at most most_in_stroke, times that increase by at least
+/// 1e-50 s. Error: input; `name` says which stroke, the sentence names column and sample.
 void check_stroke(const Stroke& stroke, const std::string& name);
 
 }  // namespace sandstroke

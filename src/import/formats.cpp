@@ -14,6 +14,7 @@
 #include "import/hpgl.h"
 #include "import/inkml.h"
 #include "import/json_rows.h"
+#include "import/kinds_not_read.h"
 #include "import/mat.h"
 #include "import/mcap.h"
 #include "import/npy.h"
@@ -31,23 +32,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A kind of file that is not read, known by its first bytes, its ending, or both.
-struct KindNotRead {
-  std::string_view begin, ending;
-  const char *name, *way_out;
-  bool is_binary = false;  ///< the byte behind `begin` is no text, which a column's name would be
-};
-
 constexpr const char* as_csv = "save or export it as CSV";
-constexpr const char* unpack = "unpack it and name the file inside";
-constexpr KindNotRead kinds_not_read[] = {
+constexpr KindNotRead recordings_not_read[] = {
     {"#ROSBAG V", "", "a ROS 1 bag of another version than 2.0", "convert it: rosbag fix FILE.bag NEW.bag"},
     {"#ROSRECORD V", "", "an old ROS 1 bag", "convert it: rosbag fix FILE.bag NEW.bag"},
     {"\x89MCAP", "", "an MCAP file of another version than 0", "convert it to a .db3: ros2 bag convert"},
     {"PK\x03\x04", ".xlsx", "an Excel file (.xlsx)", as_csv},
     {"PK\x03\x04", ".xlsm", "an Excel file (.xlsm)", as_csv},
     {"PK\x03\x04", ".ods", "a spreadsheet (.ods)", as_csv},
-    {"PK\x03\x04", "", "a zip archive", unpack},
     {"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", "", "an old Excel or Office file", as_csv},
     {"PAR1", "", "a Parquet file",
      "save it as CSV: pandas.read_parquet('FILE').to_csv('samples.csv', index=False)", true},
@@ -58,13 +50,6 @@ constexpr KindNotRead kinds_not_read[] = {
     {"%PDF", "", "a PDF", "name the file with the samples themselves"},
     {"\x89PNG", "", "a PNG picture", "name the file with the samples themselves"},
     {"\xFF\xD8\xFF", "", "a JPEG picture", "name the file with the samples themselves"},
-    {"\x1F\x8B", "", "packed by gzip", "unpack it: gunzip FILE"},
-    {"BZh", "", "packed by bzip2", "unpack it: bunzip2 FILE"},
-    {"\xFD"
-     "7zXZ",
-     "", "packed by xz", "unpack it: unxz FILE"},
-    {"\x28\xB5\x2F\xFD", "", "packed by zstd", "unpack it: unzstd FILE"},
-    {"7z\xBC\xAF", "", "a 7z archive", unpack},
     {"", ".pkl", "a Python pickle", "save a table: DataFrame.to_csv('samples.csv', index=False)"},
     {"", ".c3d", "a C3D file (motion capture)", "export its points as CSV"},
     {"HIERARCHY", "", "a BVH file (motion capture)", "export the positions of one joint as CSV"},
@@ -74,14 +59,6 @@ constexpr KindNotRead kinds_not_read[] = {
     {"%!PS", "", "a PostScript drawing", "save it as SVG (in Inkscape)"},
 };
 
-/// What Git keeps in the place of a file, whatever its ending.
-constexpr KindNotRead pointers[] = {
-    {"version https://git-lfs.github.com/spec/", "", "a pointer of Git LFS and not the file itself",
-     "get the file: git lfs pull"},
-    {"/annex/objects/", "", "a pointer of git-annex and not the file itself",
-     "get the file: git annex get FILE"},
-};
-
 bool has_ending(const fs::path& path, std::string_view ending) { return small_ending(path) == ending; }
 
 /// The beginning of a file, long enough to tell its format.
@@ -89,21 +66,6 @@ std::string head_of(const fs::path& path) {
   std::string head(1 << 16, '\0');
   head.resize(InputFile(path).read(head.data(), head.size()));
   return head;
-}
-
-bool begins_with(std::string_view head, const KindNotRead& kind) {
-  if (!head.starts_with(kind.begin)) return false;
-  const std::string_view next = head.substr(kind.begin.size(), 1);
-  return !kind.is_binary || (!next.empty() && std::iscntrl(static_cast<unsigned char>(next[0])) &&
-                             std::isspace(static_cast<unsigned char>(next[0])) == 0);
-}
-
-template <std::size_t N>
-void refuse(const KindNotRead (&kinds)[N], const fs::path& path, std::string_view head) {
-  for (const KindNotRead& kind : kinds)
-    if (begins_with(head, kind) && (kind.ending.empty() || has_ending(path, kind.ending)))
-      throw_input_error("{}: is {}, which sandstroke cannot read; {}", path.string(), kind.name,
-                        kind.way_out);
 }
 
 /// True for binary data, which has several zero bytes in a row. Tables may be in UTF-16, where every other
@@ -135,7 +97,7 @@ bool is_gcode(const fs::path& path, std::string_view text) {
 std::optional<SampleTable> read_format(const fs::path& path, const TableSettings& settings,
                                        std::string_view head, std::string_view text) {
   const std::string& part = settings.part;
-  refuse(pointers, path, head);
+  refuse_kinds(pointer_kinds, path, head);
   if (head.starts_with(std::string_view("SQLite format 3\0", 16))) return read_ros2_bag(path, part);
   if (head.starts_with(mcap_magic)) return read_mcap(path, part);
   if (head.starts_with(ros1_bag_magic)) return read_ros1_bag(path, part);
@@ -145,7 +107,8 @@ std::optional<SampleTable> read_format(const fs::path& path, const TableSettings
   if (has_ending(path, ".npz")) return read_npz(path, part);
   if (!part.empty()) throw_input_error("{}: has no parts; leave out --part {}", path.string(), part);
   if (head.starts_with("\x93NUMPY")) return read_npy(path);
-  refuse(kinds_not_read, path, head);
+  refuse_kinds(recordings_not_read, path, head);
+  refuse_kinds(packed_kinds, path, head);
   if (is_binary(head)) {
     throw_input_error(
         "{}: is neither text nor a binary format that sandstroke reads (bags of ROS, MCAP, MATLAB, NumPy); "

@@ -38,7 +38,11 @@ std::shared_ptr<const PluginLaws> load_plugin(const std::filesystem::path& path)
   const std::string theirs = function_of<const char*()>(library, "sandstroke_plugin_interface", file)(),
                     ours = plugin_interface();
   if (theirs != ours)
-    throw_input_error("{}: was built for {}, but this program is {}; build it again", file, theirs, ours);
+    throw_input_error(
+        "{}: was built for {}, but this program is {}; build it again, for this version and without flags "
+        "that "
+        "change how objects lie in memory, such as -march=native",
+        file, theirs, ours);
   const auto add_laws = function_of<void(PluginLaws&)>(library, "sandstroke_plugin_laws", file);
   try {
     add_laws(*laws);
@@ -58,7 +62,8 @@ PluginLawSettings with_plugin(PluginLawSettings own, const std::filesystem::path
 }
 
 void check_plugin_force(const Scene& scene, const std::filesystem::path& stroke_file) {
-  if (scene.plugin_laws.force.empty() || !stroke_depends_on_force(stroke_file)) return;
+  if (scene.plugin_laws.force.empty() || is_pipe(stroke_file) || !stroke_depends_on_force(stroke_file))
+    return;
   throw_input_error(
       "{}: the script gives forces, but only the paper's law can turn forces into depths; give depths, or "
       "leave out model.force = \"{}\"",

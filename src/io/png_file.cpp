@@ -1,135 +1,22 @@
 #include "io/png_file.h"
 
-#include <png.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
-#include <exception>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
-#include "core/input_file.h"
 #include "core/output_file.h"
 #include "core/version.h"
+#include "io/png_reader.h"
 
 namespace sandstroke {
 namespace {
 namespace fs = std::filesystem;
-
-/// Reads one PNG. libpng reports errors by longjmp, which must not pass over anything with a destructor. Each
-/// method below that calls libpng sets its own return point and holds only plain data.
-class PngReader {
- public:
-  explicit PngReader(const fs::path& path) : name_(path.string()), file_(path) {
-    png_byte signature[8] = {};
-    if (file_.read(signature, 8) != 8 || png_sig_cmp(signature, 0, 8) != 0)
-      throw_input_error("{}: is not a PNG file; save the picture as PNG", name_);
-    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, fail, ignore_warning);
-    info_ = png_ ? png_create_info_struct(png_) : nullptr;
-    if (!info_ || !read_header()) {
-      png_destroy_read_struct(&png_, &info_, nullptr);
-      throw_damaged();
-    }
-  }
-  ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
-  PngReader(const PngReader&) = delete;
-  PngReader& operator=(const PngReader&) = delete;
-
-  const std::string& name() const { return name_; }
-  int width() const { return static_cast<int>(png_get_image_width(png_, info_)); }
-  int height() const { return static_cast<int>(png_get_image_height(png_, info_)); }
-  int bit_depth() const { return png_get_bit_depth(png_, info_); }
-  bool gray() const { return png_get_color_type(png_, info_) == PNG_COLOR_TYPE_GRAY; }
-
-  /// The text of a keyword before the pixels; empty if there is none.
-  std::string text(const std::string& keyword) const {
-    png_textp texts = nullptr;
-    const int count = png_get_text(png_, info_, &texts, nullptr);
-    for (int i = 0; i < count; ++i)
-      if (texts[i].key == keyword && texts[i].text) return texts[i].text;
-    return "";
-  }
-
-  /// Must be called before memory is taken for the pixels.
-  void check_size() const {
-    if (width() > largest_png_side || height() > largest_png_side)
-      throw_input_error("{}: has {} x {} pixels, which are too many; a picture has at most {} per side",
-                        name_, width(), height(), largest_png_side);
-  }
-
-  /// Pixels of `pixel_bytes` each, rows from the top: 3 = 8-bit RGB, 2 = 16-bit gray as stored (big-endian).
-  std::vector<png_byte> pixels(int pixel_bytes) {
-    const std::size_t row_bytes = static_cast<std::size_t>(width()) * pixel_bytes;
-    std::vector<png_byte> bytes(row_bytes * height());
-    std::vector<png_bytep> rows(height());
-    for (std::size_t row = 0; row < rows.size(); ++row) rows[row] = bytes.data() + row * row_bytes;
-    if (!read_rows(rows.data(), pixel_bytes == 3)) throw_damaged();
-    return bytes;
-  }
-
- private:
-  static void read(png_structp png, png_bytep bytes, png_size_t count) {
-    auto* reader = static_cast<PngReader*>(png_get_io_ptr(png));
-    if (!reader->take(bytes, count)) png_error(png, "Read Error");
-  }
-  /// Keeps exceptions from passing through libpng.
-  bool take(png_bytep bytes, png_size_t count) {
-    try {
-      return file_.read(bytes, count) == count;
-    } catch (const Error&) {
-      failure_ = std::current_exception();
-      return false;
-    }
-  }
-
-  static void fail(png_structp png, png_const_charp message) {
-    static_cast<PngReader*>(png_get_error_ptr(png))->keep(message);
-    png_longjmp(png, 1);
-  }
-  static void ignore_warning(png_structp, png_const_charp) {}
-  void keep(const char* message) { std::snprintf(message_, sizeof message_, "%s", message); }
-
-  bool read_header() {
-    if (setjmp(png_jmpbuf(png_))) return false;
-    png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // so that check_size() gives the reason
-    png_set_read_fn(png_, this, read);
-    png_set_sig_bytes(png_, 8);
-    png_read_info(png_, info_);
-    return true;
-  }
-
-  bool read_rows(png_bytepp rows, bool as_rgb) {
-    if (setjmp(png_jmpbuf(png_))) return false;
-    if (as_rgb) {
-      png_set_expand(png_);
-      png_set_scale_16(png_);
-      png_set_strip_alpha(png_);
-      png_set_gray_to_rgb(png_);
-    }
-    png_set_interlace_handling(png_);
-    png_read_update_info(png_, info_);
-    png_read_image(png_, rows);
-    png_read_end(png_, nullptr);
-    return true;
-  }
-
-  [[noreturn]] void throw_damaged() const {
-    if (failure_) std::rethrow_exception(failure_);
-    throw_input_error("{}: is cut off or damaged ({}); save the PNG again", name_, message_);
-  }
-
-  std::string name_;
-  InputFile file_;
-  std::exception_ptr failure_;  // of the disk
-  png_structp png_ = nullptr;
-  png_infop info_ = nullptr;
-  char message_[160] = "out of memory";
-};
 
 const std::string range_keyword = "Heights";
 
@@ -274,23 +161,18 @@ Image read_png(const fs::path& path) {
   Image image;
   image.width = png.width();
   image.height = png.height();
-  image.rgb = png.pixels(3);
+  if (!png.has_alpha()) {
+    image.rgb = png.pixels(3);
+    return image;
+  }
+  const std::vector<png_byte> bytes = png.pixels(4);
+  image.rgb.reserve(bytes.size() / 4 * 3);
+  image.alpha.reserve(bytes.size() / 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 4) {
+    image.rgb.insert(image.rgb.end(), &bytes[i], &bytes[i] + 3);
+    image.alpha.push_back(bytes[i + 3]);
+  }
   return image;
-}
-
-HeightGrid read_height_png(const fs::path& path) {
-  PngReader png(path);
-  png.check_size();
-  if (!png.gray() || png.bit_depth() != 16)
-    throw_input_error("{}: is {}-bit {}; heights need a 16-bit grayscale PNG", png.name(), png.bit_depth(),
-                      png.gray() ? "grayscale" : "colour");
-  const std::vector<png_byte> bytes = png.pixels(2);
-  HeightGrid values(png.height(), png.width());
-  const png_byte* byte = bytes.data();
-  for (Eigen::Index row = values.rows() - 1; row >= 0; --row)
-    for (Eigen::Index col = 0; col < values.cols(); ++col, byte += 2)
-      values(row, col) = (byte[0] * 256 + byte[1]) / 65535.0;
-  return values;
 }
 
 }  // namespace sandstroke

@@ -33,7 +33,7 @@ struct GrayRange {
   double black = 0.0, white = 0.0;
 };
 
-/// Heights [m] as a 16-bit grayscale PNG, which read_height_png() reads: row 0 is the lowest. Heights beyond
+/// Heights [m] as a 16-bit grayscale PNG, which open_png_map() reads: row 0 is the lowest. Heights beyond
 /// the range are cut to it. The file holds the range as the text "Heights". Error: input, if a side is longer
 /// than largest_png_side; io, if libpng refuses.
 std::string encode_height_png(const HeightGrid& heights, const GrayRange& range);
@@ -48,12 +48,8 @@ void check_picture_name(const std::filesystem::path& path);
 /// Writes what encode_png() gives by way of PATH.part. Error: io.
 void write_png(const std::filesystem::path& path, const Image& image);
 
-/// Reads any PNG as 8-bit RGB: gray and palette are expanded, 16 bits rounded to 8, transparency is dropped.
+/// Reads any PNG as 8-bit RGB, with alpha if it has any: gray and palette are expanded, 16 bits rounded to 8.
 /// Error: io, if it cannot be opened; input, if it is no PNG, damaged or larger than largest_png_side.
 Image read_png(const std::filesystem::path& path);
-
-/// Reads a 16-bit grayscale PNG as values from 0 (black) to 1 (white), value / 65535 exactly; the picture's
-/// lowest row is row 0 (its upper border is the highest y). Error: as read_png; input for other kinds of PNG.
-HeightGrid read_height_png(const std::filesystem::path& path);
 
 }  // namespace sandstroke

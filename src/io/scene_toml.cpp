@@ -1,8 +1,13 @@
 #include "io/scene_toml.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
 
 #include "core/error.h"
+#include "core/input_file.h"
 #include "import/import_stroke.h"
 #include "io/input_kind.h"
 #include "io/key_reader.h"
@@ -26,9 +31,19 @@ void check(const Scene& scene, const TomlReader& toml) {
 
 enum class Written { by_a_user, by_a_run };
 
-SceneFile read_scene(TomlReader toml, const std::vector<std::string>& overrides,
-                     Written written = Written::by_a_user) {
-  for (const std::string& assignment : overrides) toml.override_with(assignment);
+const std::map<std::string, std::string>& scene_conditions() {
+  static const std::map<std::string, std::string> known = conditions(all_scene_keys());
+  return known;
+}
+
+TomlReader reader_of(const SceneText& text) {
+  TomlReader toml = TomlReader::from_text(text.text, text.name);
+  for (const std::string& assignment : text.own) toml.override_with(assignment);
+  return toml;
+}
+
+/// Reads all keys. leave_out: which of those that do not apply are passed over.
+SceneFile scene_of(const TomlReader& toml, Written written, const TomlReader::LeaveOut& leave_out) {
   SceneFile scene;
   read_keys(toml, [&](KeyVisitor& visitor) { describe_scene_file(visitor, scene); });
   toml.skip("relaxation.engine");  // in older scenes and run files: all engines gave the same bits
@@ -37,36 +52,137 @@ SceneFile read_scene(TomlReader toml, const std::vector<std::string>& overrides,
       toml.fail(travel, "was replaced by relaxation.way, in tool radii instead of cells; set that");
     toml.skip(travel);
   }
-  toml.reject_unread([] { return conditions(all_scene_keys()); });
+  toml.reject_unread(scene_conditions, leave_out);
+  return scene;
+}
+
+/// The keys of a text that do not apply even without overrides.
+std::set<std::string> unused_by_itself(const SceneText& text) {
+  std::set<std::string> unused;
+  try {
+    scene_of(reader_of(text), Written::by_a_user, [&](const std::string& key, const std::string&) {
+      unused.insert(key);
+      return true;
+    });
+  } catch (const Error&) {  // the text is a scene only with overrides
+  }
+  return unused;
+}
+
+/// True if one of the overrides gives the key a value.
+bool sets(const std::vector<std::string>& overrides, const std::string& key) {
+  return std::any_of(overrides.begin(), overrides.end(),
+                     [&](const std::string& one) { return one.starts_with(key + "="); });
+}
+
+SceneFile read_scene(const SceneText& text, const std::vector<std::string>& overrides,
+                     std::vector<LeftOut>& left_out) {
+  TomlReader toml = reader_of(text);
+  for (const std::string& assignment : overrides) toml.override_with(assignment);
+  std::optional<std::set<std::string>> unused;
+  SceneFile scene =
+      scene_of(toml, Written::by_a_user, [&](const std::string& key, const std::string& condition) {
+        if (overrides.empty() || sets(overrides, key)) return false;
+        if (!unused) unused = unused_by_itself(text);
+        if (unused->contains(key)) return false;
+        left_out.push_back({key, condition});
+        return true;
+      });
   check(scene, toml);
   return scene;
 }
 
+/// Names the file from the current folder, if an override gave it and it is not beside the scene.
+void find_given_file(std::string& file, const std::string& key, const std::vector<std::string>& overrides,
+                     const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  if (!sets(overrides, key) || file.empty() || file == "-" || fs::path(file).is_absolute() ||
+      !fs::exists(file, none))
+    return;
+  if (!fs::exists(folder / file, none)) {
+    file = fs::absolute(file).string();
+  } else if (!fs::equivalent(folder / file, file, none)) {
+    spdlog::info("--set {}={}: takes {}, beside the scene, not the file of that name in this folder", key,
+                 file, (folder / file).string());
+  }
+}
+
 }  // namespace
+
+std::string left_out_text(const std::vector<LeftOut>& left_out) {
+  std::vector<std::string> conditions, sentences;
+  for (const LeftOut& one : left_out)
+    if (std::find(conditions.begin(), conditions.end(), one.condition) == conditions.end())
+      conditions.push_back(one.condition);
+  for (const std::string& condition : conditions) {
+    std::vector<std::string> keys;
+    for (const LeftOut& one : left_out)
+      if (one.condition == condition) keys.push_back(one.key);
+    const bool single = keys.size() == 1;
+    sentences.push_back(fmt::format("{} {} left out, because {} only where {}", fmt::join(keys, ", "),
+                                    single ? "is" : "are", single ? "it applies" : "they apply", condition));
+  }
+  return fmt::format("{}", fmt::join(sentences, "; "));
+}
 
 bool is_void(const std::string& key, const std::string& literal) {
   return key == "relaxation.travel" && literal == "0";
 }
 
-SceneFile load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+SceneFile load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                     std::vector<LeftOut>* left_out) {
   return read_as({InputKind::scene}, path, [&] {
-    TomlReader toml = TomlReader::from_file(path);
+    const SceneText text{read_text_file(path), path.string()};
+    const TomlReader toml = TomlReader::from_text(text.text, text.name);
     if (toml.has("stroke") && toml.text("stroke.file", "") == "-")
       throw_input_error(
           "{}: stroke.file = \"-\" names no file; to play standard input, leave it out and "
           "give --stroke - to sandstroke run",
           path.string());
-    return read_scene(std::move(toml), overrides);
+    std::vector<LeftOut> unused;
+    SceneFile scene = read_scene(text, overrides, unused);
+    const std::filesystem::path folder = path.parent_path();
+    find_given_file(scene.bed.surface.file, "bed.surface.file", overrides, folder);
+    find_given_file(scene.tool.file, "tool.file", overrides, folder);
+    find_given_file(scene.plugin_laws.plugin, "model.plugin", overrides, folder);
+    if (scene.stroke) find_given_file(scene.stroke->file, "stroke.file", overrides, folder);
+    if (left_out)
+      left_out->insert(left_out->end(), unused.begin(), unused.end());
+    else if (!unused.empty())
+      spdlog::info("{}: {}", path.string(), left_out_text(unused));
+    return scene;
   });
 }
 
-SceneFile scene_from_text(const std::string& text, const std::string& name,
-                          const std::vector<std::string>& overrides) {
-  return read_scene(TomlReader::from_text(text, name), overrides);
+SceneFile scene_from_text(const SceneText& text, const std::vector<std::string>& overrides,
+                          std::vector<LeftOut>* left_out) {
+  std::vector<LeftOut> unused;
+  SceneFile scene = read_scene(text, overrides, unused);
+  if (left_out) left_out->insert(left_out->end(), unused.begin(), unused.end());
+  return scene;
 }
 
+SceneFile combined_scene(const SceneText& text, const std::vector<std::string>& overrides,
+                         std::vector<LeftOut>& left_out) {
+  TomlReader toml = reader_of(text);
+  for (const std::string& assignment : overrides) toml.override_with(assignment);
+  SceneFile scene =
+      scene_of(toml, Written::by_a_user, [&](const std::string& key, const std::string& condition) {
+        left_out.push_back({key, condition});
+        return true;
+      });
+  check(scene, toml);
+  return scene;
+}
+
+bool applies_conditionally(const std::string& key) { return scene_conditions().contains(key); }
+
 SceneFile stored_scene(const std::string& text, const std::string& name) {
-  return read_scene(TomlReader::from_text(text, name), {}, Written::by_a_run);
+  const TomlReader toml = TomlReader::from_text(text, name);
+  const SceneFile scene = scene_of(toml, Written::by_a_run, {});
+  check(scene, toml);
+  return scene;
 }
 
 std::filesystem::path stroke_path(const Scene& scene, const std::filesystem::path& folder) {

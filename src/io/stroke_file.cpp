@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/input_file.h"
-#include "core/log.h"
+#include "core/warning.h"
 #include "haptics/stroke_script.h"
 #include "import/import_stroke.h"
 #include "io/input_kind.h"
@@ -68,7 +68,7 @@ Stroke read_stroke_file(const std::filesystem::path& path) {
 }
 
 bool is_recorded(const std::filesystem::path& path) {
-  if (path == "-") return false;  // it can be read only once
+  if (path == "-" || is_pipe(path)) return false;  // it can be read only once
   check_readable(path);
   return path.extension() == ".h5" || begins_with(path, hdf5_signature);
 }
@@ -101,7 +101,7 @@ Stroke load_stroke(const std::filesystem::path& path, const ForceSettings& force
     if (path.extension() == ".toml") return trace_script(read_stroke_script(path), force);
     ImportedStroke imported = import_stroke(path, table);
     spdlog::info("{}: {}", samples_name(path), imported.description);
-    for (const std::string& warning : imported.warnings) warn_if_any(warning);
+    for (const std::string& warning : imported.warnings) warn({WarningCode::stroke_import, warning});
     imported.stroke.source = samples_name(path.filename());
     return std::move(imported.stroke);
   });

@@ -1,12 +1,51 @@
 #include "io/surface_file.h"
 
+#include <spdlog/spdlog.h>
+
 #include <cmath>
 
 #include "core/error.h"
+#include "core/input_file.h"
+#include "hdf5/hdf5_file.h"
+#include "io/height_map.h"
+#include "io/input_kind.h"
+#include "io/map_on_bed.h"
 #include "io/png_file.h"
 #include "io/run_file.h"
+#include "sand/cell_means.h"
 
 namespace sandstroke {
+namespace {
+
+/// Error: input, for files that are neither maps nor HDF5 files.
+void check_is_run(const std::filesystem::path& path) {
+  if (begins_with(path, hdf5_signature)) return;
+  expect_kind(path, {InputKind::run});
+  throw_input_error(
+      "{}: is neither a run file nor a map that sandstroke reads; save the heights as a GeoTIFF, a 16-bit "
+      "grayscale PNG, a NumPy array (.npy) or an ESRI ASCII grid (.asc)",
+      path.string());
+}
+
+/// A run's final surface: area means of it, if the bed has other cells.
+HeightGrid final_heights(const RunFile& run, const BedSettings& bed) {
+  const double width = run.cell_size() * run.cols(), depth = run.cell_size() * run.rows();
+  if (std::abs(width - bed.width) > 1e-9 * bed.width || std::abs(depth - bed.depth) > 1e-9 * bed.depth)
+    throw_input_error("{}: is a bed of {} x {} cells, {} m by {} m, but bed.size = [{}, {}]; make them equal",
+                      run.name(), run.cols(), run.rows(), width, depth, bed.width, bed.depth);
+  const SurfaceSettings& surface = bed.surface;
+  if (surface.low != surface.high || surface.scale != 1.0 || surface.nodata)
+    spdlog::info(
+        "{}: is a run file, whose heights stay: bed.surface.low, high, scale and nodata are for maps",
+        run.name());
+  if (run.rows() == bed.rows && run.cols() == bed.cols) return run.final();
+  spdlog::info("{}: {} x {} cells fitted to {} x {} cells of {:.4g} m", run.name(), run.cols(), run.rows(),
+               bed.cols, bed.rows, bed.cell_size());
+  const HeightField final = run.final_bed();
+  return HeightGrid::NullaryExpr(bed.rows, bed.cols, CellMeans(final, bed.rows, bed.cols));
+}
+
+}  // namespace
 
 BedSettings with_own_range(BedSettings bed, const std::filesystem::path& folder) {
   SurfaceSettings& surface = bed.surface;
@@ -26,30 +65,14 @@ HeightField load_surface(const BedSettings& settings, const std::filesystem::pat
 
   const std::filesystem::path path = folder / surface.file;
   HeightGrid heights;
-  const auto check_cells = [&](Eigen::Index rows, Eigen::Index cols) {
-    if (rows != bed.rows || cols != bed.cols)
-      throw_input_error("{}: has {} x {} cells (x, y), but bed.cells = [{}, {}]; make them equal",
-                        path.string(), cols, rows, bed.cols, bed.rows);
-  };
-  if (has_picture_name(path)) {
-    if (surface.low == surface.high)
-      throw_input_error(
-          "{}: the PNG does not say its heights, and bed.surface.low and high are both {} m; set them to the "
-          "heights of black and white",
-          path.string(), surface.low);
-    const HeightGrid gray = read_height_png(path);
-    heights = (gray == 1.0).select(surface.high, surface.low + (surface.high - surface.low) * gray);
+  if (const std::unique_ptr<HeightMap> map = open_height_map(path)) {
+    heights = heights_on_bed(*map, bed, path.string());
   } else {
-    const RunFile run(path);
-    check_cells(run.rows(), run.cols());  // before memory is taken for them
-    heights = run.final();
-    if (std::abs(run.cell_size() - bed.cell_size()) > 1e-9 * bed.cell_size())
-      throw_input_error("{}: has cells of {} m, but the bed has cells of {} m; change bed.size or bed.cells",
-                        path.string(), run.cell_size(), bed.cell_size());
+    check_is_run(path);
+    heights = final_heights(RunFile(path), bed);
+    if (!heights.isFinite().all())
+      throw_input_error("{}: holds heights that are not finite numbers; correct it", path.string());
   }
-  check_cells(heights.rows(), heights.cols());
-  if (!heights.isFinite().all())
-    throw_input_error("{}: holds heights that are not finite numbers; correct it", path.string());
   return HeightField(heights, bed.cell_size(), bed.shape);
 }
 

@@ -127,8 +127,21 @@ std::string TomlReader::overrides_in(std::string_view sentence) const {
   return fmt::format("{}", fmt::join(named, ", "));
 }
 
+void TomlReader::take_out(const std::string& key) {
+  check_key_depth(key, "--unset");
+  const std::vector<std::string> parts = parts_of(key);
+  toml::table* table = &document_->root;
+  for (std::size_t i = 0; table && i + 1 < parts.size(); ++i) table = table->get_as<toml::table>(parts[i]);
+  if (table && table->erase(parts.back())) return;
+  const std::vector<std::string> keys = keys_in("");
+  const std::string meant = nearest_name(key, {keys.begin(), keys.end()});
+  throw_input_error("--unset {}: {} has no such key; {}", key, document_->name,
+                    meant.empty() ? "leave the option out" : fmt::format("did you mean {}?", meant));
+}
+
 void TomlReader::override_with(const std::string& assignment) {
   const auto equals = assignment.find('=');
+  if (assignment.starts_with('!') && equals == std::string::npos) return take_out(assignment.substr(1));
   if (equals == 0 || equals == std::string::npos)
     throw_input_error("--set {}: not an assignment; write --set section.key=value", assignment);
   const std::string key = assignment.substr(0, equals);
@@ -376,15 +389,17 @@ std::string TomlReader::override_of(const std::string& key) const {
   return {};
 }
 
-void TomlReader::reject_unread(const Conditions& conditions) const {
+void TomlReader::reject_unread(const Conditions& conditions, const LeaveOut& leave_out) const {
   const auto reject = [&](const std::string& key, const toml::node& node) {
     const std::string set = override_of(key);
     const std::string location =
         set.empty() ? fmt::format("{}:{}", document_->name, node.source().begin.line) : set;
     const auto known = conditions ? conditions() : std::map<std::string, std::string>{};
-    if (const auto found = known.find(key); found != known.end())
+    if (const auto found = known.find(key); found != known.end()) {
+      if (leave_out && leave_out(key, found->second)) return;
       throw_input_error("{}: {} applies only where {}; remove it, or change that setting", location, key,
                         found->second);
+    }
     for (const auto& [other, condition] : known) document_->asked_for.insert(other);
     const std::string suggestion = nearest_name(key, document_->asked_for);
     throw_input_error("{}: unknown key {}{}", location, key,

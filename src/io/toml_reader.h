@@ -29,7 +29,8 @@ class TomlReader {
   static TomlReader from_file(const std::filesystem::path& path);
   static TomlReader from_text(std::string_view text, const std::string& name);
 
-  /// Sets one key from "key=value" (--set). The value is TOML, or else a string.
+  /// Sets one key from "key=value" (--set), or takes one out by "!key" (--unset). The value is TOML, or else
+  /// a string.
   void override_with(const std::string& assignment);
   const std::string& name() const;  ///< of the file
   /// The assignments of keys that a sentence names, as "--set key=value, --set ..."; empty: none.
@@ -70,9 +71,11 @@ class TomlReader {
 
   void require(std::string_view key) const;
   /// Throws for the first key in the whole document that no call above has read. conditions: where keys apply
-  /// that are not always read ("bed.surface.kind is noise"), by their names.
+  /// that are not always read ("bed.surface.kind is noise"), by their names. leave_out: gets such a key and
+  /// where it applies; true if it shall be passed over.
   using Conditions = std::function<std::map<std::string, std::string>()>;
-  void reject_unread(const Conditions& conditions = {}) const;
+  using LeaveOut = std::function<bool(const std::string& key, const std::string& condition)>;
+  void reject_unread(const Conditions& conditions = {}, const LeaveOut& leave_out = {}) const;
 
   /// Throws an Error: file, line of the key, key, then the sentence.
   [[noreturn]] void fail(std::string_view key, const std::string& sentence) const;
@@ -81,6 +84,7 @@ class TomlReader {
   struct Document;
   TomlReader(std::shared_ptr<Document> document, toml::table* table, std::string prefix);
   const toml::node* find(std::string_view key) const;
+  void take_out(const std::string& key);
   /// The "--set ..." that gave a key, its table or what is in it; empty: none.
   std::string override_of(const std::string& key) const;
   double checked(std::string_view key, const toml::node& node, Range range, std::string_view unit = "") const;

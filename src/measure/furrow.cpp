@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/tool_fit.h"
+
 namespace sandstroke {
 namespace {
 
@@ -233,9 +235,10 @@ std::string furrow_warning(const Scene& scene, const FurrowMeasures& furrow) {
     return left +
            ": in the published model, sand flows into the tool or is pushed into the furrow behind it; set "
            "tool.solid = true and displacement.deposit = \"outward\", as model.preset = \"accurate\" does";
-  return left +
-         ": behind the tool, sand falls back into such a deep furrow; a larger tool.radius or a steeper "
-         "relaxation.talus_angle leaves a deeper one";
+  return fmt::format(
+      "{}: behind the tool, sand falls back into such a deep furrow; a larger {} or a steeper "
+      "relaxation.talus_angle leaves a deeper one",
+      left, width_key(scene.tool.shape));
 }
 
 }  // namespace sandstroke

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "sim/tool_fit.h"
 #include "tool/tool_surface.h"
 
 namespace sandstroke {
@@ -18,6 +19,12 @@ DeepestPoint deepest_point(const Scene& scene, const HeightField& bed, const Str
     if (depth > deepest.depth) deepest = {depth, stroke.time[i]};
   }
   return deepest;
+}
+
+void check_tool_in_stroke(const Scene& scene, const HeightField& bed, const Stroke& stroke,
+                          const std::string& name) {
+  const double depth = deepest_point(scene, bed, stroke).depth;
+  if (depth > 0.0) check_tool_fits(scene, name, depth);
 }
 
 std::string untouched_text(const Scene& scene, const RunResult& result) {

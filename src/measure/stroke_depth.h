@@ -18,6 +18,11 @@ struct DeepestPoint {
 /// stroke: as place_stroke() returns it. Looks at its samples; those outside the bed do not count.
 DeepestPoint deepest_point(const Scene& scene, const HeightField& bed, const Stroke& stroke);
 
+/// Checks that the cells resolve the tool as deep as the stroke goes (check_tool_fits). Error: input, naming
+/// the stroke by `name`.
+void check_tool_in_stroke(const Scene& scene, const HeightField& bed, const Stroke& stroke,
+                          const std::string& name);
+
 /// A sentence for a tool that never touches the sand: how far it stayed away, and what to change.
 std::string untouched_text(const Scene& scene, const RunResult& result);
 

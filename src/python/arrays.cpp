@@ -3,6 +3,10 @@
 #include <pybind11/stl.h>
 #include <spdlog/fmt/ranges.h>
 
+#include <algorithm>
+#include <limits>
+#include <optional>
+
 #include "core/error.h"
 #include "haptics/gap_threshold.h"
 
@@ -17,6 +21,14 @@ using Dense = py::array_t<Number, py::array::c_style | py::array::forcecast>;
 std::string shape_text(const py::array& array) {
   std::vector<py::ssize_t> shape(array.shape(), array.shape() + array.ndim());
   return fmt::format("({})", fmt::join(shape, ", "));
+}
+
+/// The mask of a masked array, row by row; none: it is no masked array. Read as an array like others, it has
+/// any numbers under its mask.
+std::optional<Dense<bool>> mask_of(const py::object& given) {
+  const py::object masked = py::module_::import("numpy").attr("ma");
+  if (!py::isinstance(given, masked.attr("MaskedArray"))) return {};
+  return Dense<bool>(masked.attr("getmaskarray")(given));
 }
 
 template <class Number>
@@ -34,6 +46,10 @@ Dense<Number> numbers(const char* name, const py::object& given, py::ssize_t com
   if (!fits)
     throw_input_error("stroke: {} has the shape {}; it must be {}", name, shape_text(array),
                       components == 0 ? "(n,)" : fmt::format("(n, {})", components));
+  if (const std::optional<Dense<bool>> mask = mask_of(given))
+    if (const auto masked = std::count(mask->data(), mask->data() + mask->size(), true); masked > 0)
+      throw_input_error("stroke: {} has {} masked numbers; fill them, or leave these samples out", name,
+                        masked);
   return Dense<Number>(array);
 }
 
@@ -53,6 +69,12 @@ void take(const char* name, const py::object& given, std::vector<Number>& column
 
 }  // namespace
 
+SharedGrid::SharedGrid(const HeightGrid& heights) : grid(std::make_shared<HeightGrid>(heights)) {
+  const py::capsule owner(new std::shared_ptr<HeightGrid>(grid),
+                          [](void* kept) { delete static_cast<std::shared_ptr<HeightGrid>*>(kept); });
+  array = py::array_t<double>({grid->rows(), grid->cols()}, grid->data(), owner);
+}
+
 py::array_t<double> copy_of(const HeightGrid& grid) {
   py::array_t<double> array({grid.rows(), grid.cols()});
   std::copy(grid.data(), grid.data() + grid.size(), array.mutable_data());
@@ -71,7 +93,7 @@ py::array_t<double> rows_of(const BedGeometry& bed) {
   return centres;
 }
 
-HeightGrid grid_of(const char* name, const py::object& given) {
+HeightGrid grid_with_gaps(const char* name, const py::object& given) {
   py::array array;
   try {
     array = py::array(given);
@@ -82,7 +104,15 @@ HeightGrid grid_of(const char* name, const py::object& given) {
     throw_input_error("{}: must have two dimensions of numbers, rows along y and columns along x", name);
   const Dense<double> heights(array);
   HeightGrid grid = Eigen::Map<const HeightGrid>(heights.data(), heights.shape(0), heights.shape(1));
-  if (!grid.allFinite()) throw_input_error("{}: a height is not a number", name);
+  if (const std::optional<Dense<bool>> mask = mask_of(given))
+    for (py::ssize_t i = 0; i < mask->size(); ++i)
+      if (mask->data()[i]) grid.data()[i] = std::numeric_limits<double>::quiet_NaN();
+  return grid;
+}
+
+HeightGrid grid_of(const char* name, const py::object& given) {
+  HeightGrid grid = grid_with_gaps(name, given);
+  if (!grid.allFinite()) throw_input_error("{}: a height is masked or not a number", name);
   return grid;
 }
 

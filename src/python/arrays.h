@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 
 #include <Eigen/Core>
+#include <memory>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -36,6 +37,14 @@ pybind11::array column_view(std::vector<Record>& records, const Of& of, pybind11
     return view_of(first.data(), {rows, first.size()}, {step, pybind11::ssize_t{sizeof(double)}}, owner);
 }
 
+/// A writable array over a copy of the grid, and the copy itself. Users may reshape or keep the array: the
+/// numbers stay where they are, as long as either lives.
+struct SharedGrid {
+  explicit SharedGrid(const HeightGrid& grid);
+  std::shared_ptr<HeightGrid> grid;
+  pybind11::array_t<double> array;
+};
+
 /// Copies a grid into an array of its own.
 pybind11::array_t<double> copy_of(const HeightGrid& grid);
 
@@ -43,8 +52,10 @@ pybind11::array_t<double> copy_of(const HeightGrid& grid);
 pybind11::array_t<double> columns_of(const BedGeometry& bed);
 pybind11::array_t<double> rows_of(const BedGeometry& bed);
 
-/// Reads heights: two dimensions, rows along y. Error: input, naming `name`, also if a height is not a
-/// number.
+/// Reads heights: two dimensions, rows along y; not-a-number where they are masked. Error: input, naming
+/// `name`.
+HeightGrid grid_with_gaps(const char* name, const pybind11::object& heights);
+/// The same. Error: input, also if a height is masked or not a number.
 HeightGrid grid_of(const char* name, const pybind11::object& heights);
 
 /// Makes a stroke from arrays by column name (visit_columns): at least "time" [s] and "position" [m]. Error:

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "python/interpreter_lock.h"
 
 namespace sandstroke {
 namespace {
@@ -45,7 +46,20 @@ py::handle new_error(py::module_& module, const char* name, py::handle base, py:
   return error;
 }
 
-py::handle input_error, unstable_error, file_error;
+py::handle input_error, unstable_error, file_error, result_warning;
+
+/// The warning as Python has it: with its code, if it makes a result doubtful.
+py::object python_warning(const std::string& sentence, const std::vector<Warning>& coded) {
+  const py::str text = without_option(sentence);
+  for (const Warning& warning : coded)
+    if (warning.text == sentence) {
+      py::object made = result_warning(text);
+      made.attr("code") = warning.kind().word;
+      made.attr("section") = warning.kind().section;
+      return made;
+    }
+  return py::reinterpret_borrow<py::object>(PyExc_UserWarning)(text);
+}
 
 }  // namespace
 
@@ -57,6 +71,10 @@ void add_errors(py::module_& module) {
   unstable_error = new_error(module, "UnstableError", error, PyExc_ArithmeticError,
                              "The run is unstable, or a law makes or loses sand; try other settings.");
   file_error = new_error(module, "FileError", error, PyExc_OSError, "A file could not be read or written.");
+  result_warning =
+      new_error(module, "ResultWarning", PyExc_UserWarning, {},
+                "A result is doubtful. code: a word of `sandstroke help warnings`; section: of the "
+                "scene.");
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
@@ -90,20 +108,21 @@ Warnings::Warnings() : before_(collecting) { collecting = &sentences_; }
 Warnings::~Warnings() { collecting = before_; }
 
 void Warnings::give() {
-  constexpr Py_ssize_t caller = 2;  // the stack level of the code that called the package
+  constexpr int caller = 2;  // the stack level of the code that called the package
   for (const std::string& sentence : sentences_)
-    if (PyErr_WarnEx(PyExc_UserWarning, without_option(sentence).c_str(), caller) != 0)
-      throw py::error_already_set();
+    py::module_::import("warnings")
+        .attr("warn")(python_warning(sentence, coded_.warnings()), py::arg("stacklevel") = caller);
   sentences_.clear();
 }
 
 void SignalWatch::look() {
+  stay_if_leaving();
   constexpr double interval = 0.05;  // s
   using Seconds = std::chrono::duration<double>;
   const double now = Seconds(std::chrono::steady_clock::now().time_since_epoch()).count();
   if (now < next_) return;
   next_ = now + interval;
-  const py::gil_scoped_acquire gil;
+  const WithLock lock;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 

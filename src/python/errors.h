@@ -5,24 +5,28 @@
 #include <string>
 #include <vector>
 
+#include "core/warning.h"
+
 namespace sandstroke {
 
-/// Adds Error, InputError (a ValueError), UnstableError (an ArithmeticError) and FileError (an OSError) to
-/// the module. Their sentences are the program's error sentences.
+/// Adds Error, InputError (a ValueError), UnstableError (an ArithmeticError), FileError (an OSError) and
+/// ResultWarning (a UserWarning) to the module. Their sentences are the program's error sentences.
 void add_errors(pybind11::module_& module);
 
 /// Collects the warnings that this thread logs while it lives. give() makes Python warnings of them, so that
-/// none is raised while the interpreter lock is released.
+/// none is raised while the interpreter lock is released: a ResultWarning where there is a code.
 class Warnings {
  public:
   Warnings();
   ~Warnings();
   Warnings(const Warnings&) = delete;
   Warnings& operator=(const Warnings&) = delete;
+  void add(const std::string& sentence) { sentences_.push_back(sentence); }
   /// Call it with the interpreter lock. May throw: users can turn a warning into an error.
   void give();
 
  private:
+  WarningList coded_;
   std::vector<std::string> sentences_;
   std::vector<std::string>* before_;
 };
@@ -44,7 +48,7 @@ auto or_what_ended_it(const Work& work) {
 }
 
 /// Checks for Ctrl-C now and then during work without the interpreter lock. Throws KeyboardInterrupt as
-/// Python does.
+/// Python does. A daemon thread stays here when the interpreter ends.
 class SignalWatch {
  public:
   void look();

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "python/errors.h"
+#include "python/interpreter_lock.h"
 #include "python/plugin_laws.h"
 #include "validation/stress/stress.h"
 #include "validation/study/plugin_contenders.h"
@@ -29,7 +30,7 @@ std::string bench(const py::dict& laws, const std::array<double, 4>& parameters,
                   const std::filesystem::path& folder, bool quick, const std::vector<std::string>& problems) {
   const std::vector<PluginLawSettings> plugin_laws = settings_of(laws, parameters);
   return or_what_ended_it([&] {
-    const py::gil_scoped_release let_go;
+    const WithoutLock let_go;
     StudyOptions options;
     options.quick = quick;
     options.problems = problems;
@@ -48,7 +49,7 @@ std::string stress(const py::dict& laws, const std::array<double, 4>& parameters
   options.plugin_laws = settings_of(laws, parameters);
   options.quick = quick;
   return or_what_ended_it([&] {
-    const py::gil_scoped_release let_go;
+    const WithoutLock let_go;
     SignalWatch signals;
     options.progress = [&](double) { signals.look(); };
     return as_json(stress_all(options)).dump();

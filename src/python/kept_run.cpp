@@ -2,9 +2,12 @@
 
 #include <pybind11/pybind11.h>
 
+#include "compare/trace_difference.h"
 #include "core/error.h"
+#include "io/map_on_bed.h"
 #include "io/run_file.h"
 #include "python/errors.h"
+#include "python/interpreter_lock.h"
 #include "run/run_summary.h"
 #include "run/run_warnings.h"
 
@@ -38,10 +41,52 @@ class Keeper : public SimulationObserver {
 
 }  // namespace
 
-HeightField surface_of(const Scene& scene, const HeightGrid& heights) {
+namespace {
+
+/// The part of a run's summary that its file tells, by the names of `run --json`.
+nlohmann::ordered_json summary_of_file(const RunFile& file, const KeptRun& run) {
+  nlohmann::ordered_json summary = {{"output", run.path}, {"preset", preset_name(run.scene.scene.preset)}};
+  double moved = 0.0;
+  if (file.has_trace()) {
+    std::int64_t contact = 0, saturated = 0;
+    double displaced = 0.0;
+    for (const TickRecord& tick : run.trace) {
+      contact += tick.contact;
+      saturated += tick.saturated;
+      displaced += tick.displaced_volume;
+    }
+    const auto [force, depth] = trace_peaks(run.trace);
+    summary.update({{"contact_ticks", contact},
+                    {"saturated_ticks", saturated},
+                    {"displaced_volume", displaced},
+                    {"max_force", force},
+                    {"max_depth", depth}});
+    moved = displaced;
+  }
+  std::int64_t passes = 0;
+  for (const RelaxationRecord& relaxation : run.relaxations) {
+    passes += relaxation.outcome.passes;
+    moved += relaxation.outcome.moved_volume;
+  }
+  const double area = run.bed.cell_size() * run.bed.cell_size();
+  summary["passes"] = passes;
+  if (!run.relaxations.empty()) summary["residual"] = run.relaxations.back().outcome.residual;
+  if (file.has_trace() || !run.scene.scene.stroke) summary["moved_volume"] = moved;
+  summary["volume_initial"] = area * run.initial.sum();
+  summary["volume_final"] = area * run.final.sum();
+  if (const std::optional<ErrorEstimate> error = file.error_estimate())
+    summary["error_estimate"] = error_json(*error);
+  return summary;
+}
+
+}  // namespace
+
+HeightField surface_of(const Scene& scene, HeightGrid heights) {
   if (heights.rows() != scene.bed.rows || heights.cols() != scene.bed.cols)
     throw_input_error("surface: has {} rows and {} columns, and the scene's bed {} and {} (bed.cells)",
                       heights.rows(), heights.cols(), scene.bed.rows, scene.bed.cols);
+  check_no_gaps(heights, scene.bed, "surface", "fill them with a height: numpy.ma.filled(surface, 0.0)");
+  check_heights(heights.minCoeff(), heights.maxCoeff(), scene.bed, "surface");
   return HeightField(heights, scene.bed.cell_size(), scene.bed.shape);
 }
 
@@ -70,9 +115,12 @@ std::shared_ptr<KeptRun> kept_run(const SceneHere& scene, std::optional<Stroke> 
   };
   Warnings warnings;
   {
-    const py::gil_scoped_release let_go;
-    const RunResult result = run_scene(scene.scene, output, options);
-    warn_of_run(result, run->scene.scene);
+    const WithoutLock let_go;
+    RunResult result = run_scene(scene.scene, output, options);
+    for (const Warning& warning : warnings_of_run(result, run->scene.scene)) {
+      warn(warning);
+      result.warnings.push_back(warning);
+    }
     run->summary = run_summary(result, run->scene.scene, run->path);
   }
   warnings.give();
@@ -80,7 +128,7 @@ std::shared_ptr<KeptRun> kept_run(const SceneHere& scene, std::optional<Stroke> 
 }
 
 std::shared_ptr<KeptRun> read_run(const std::filesystem::path& path) {
-  const py::gil_scoped_release let_go;
+  const WithoutLock let_go;
   const RunFile file(path);
   auto run = std::make_shared<KeptRun>();
   run->scene = {file.scene(), path.parent_path()};
@@ -97,6 +145,7 @@ std::shared_ptr<KeptRun> read_run(const std::filesystem::path& path) {
   RunFrames frames(file);
   for (std::size_t k = 0; k < run->frame_times.size(); ++k)
     append(run->frames, frames.surface(static_cast<int>(k)));
+  run->summary = summary_of_file(file, *run);
   return run;
 }
 

@@ -21,7 +21,7 @@ struct SceneHere {
 struct KeptRun {
   SceneHere scene;
   std::string path;                ///< of its file; empty: none
-  nlohmann::ordered_json summary;  ///< as `run --json`; null for a file
+  nlohmann::ordered_json summary;  ///< as `run --json`; of a file: what it tells
   BedGeometry bed{1, 1, 1.0};
   HeightGrid initial, final;  ///< m
   TraceContent content;
@@ -31,8 +31,9 @@ struct KeptRun {
   std::vector<double> frames;       ///< m, one after the other
 };
 
-/// Makes the bed of a scene with these heights [m]. Error: input, if their shape is not that of bed.cells.
-HeightField surface_of(const Scene& scene, const HeightGrid& heights);
+/// Makes the bed of a scene with these heights [m]. Error: input, if their shape is not that of bed.cells, or
+/// if some are missing (not-a-number) or beyond all sense.
+HeightField surface_of(const Scene& scene, HeightGrid heights);
 
 /// Runs a scene. Without stroke or surface it takes the scene's. Writes no file if output is empty. Call it
 /// with the interpreter lock, which it releases. Errors as in run_scene.

@@ -14,6 +14,7 @@
 #include "io/scene_toml.h"
 #include "python/arrays.h"
 #include "python/errors.h"
+#include "python/interpreter_lock.h"
 #include "python/kept_run.h"
 #include "python/module_parts.h"
 #include "python/plugin_laws.h"
@@ -65,13 +66,27 @@ py::array frames(const py::object& self) {
                  {rows * cols * number, cols * number, number}, self);
 }
 
-SceneHere scene_of_file(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  return {load_scene(path, overrides), path.parent_path()};
+/// Tells the user, as a Python warning, what the settings left out.
+void tell_left_out(const std::vector<LeftOut>& left_out) {
+  Warnings warnings;
+  if (!left_out.empty()) warnings.add("scene: " + left_out_text(left_out));
+  warnings.give();
 }
 
+SceneHere scene_of_file(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  std::vector<LeftOut> left_out;
+  SceneHere here{load_scene(path, overrides, &left_out), path.parent_path()};
+  tell_left_out(left_out);
+  return here;
+}
+
+/// own: overrides that belong to the text.
 SceneHere scene_of_text(const std::string& text, const std::filesystem::path& folder,
-                        const std::vector<std::string>& overrides) {
-  return {scene_from_text(text, "scene", overrides), folder};
+                        const std::vector<std::string>& own, const std::vector<std::string>& overrides) {
+  std::vector<LeftOut> left_out;
+  SceneHere here{scene_from_text({text, "scene", own}, overrides, &left_out), folder};
+  tell_left_out(left_out);
+  return here;
 }
 
 /// Draws an array (height, width, 3) of 8 bits. Without tip it draws no tool.
@@ -83,7 +98,7 @@ py::array picture(const SceneHere& here, const py::object& heights, const py::ob
     throw_input_error("start: must have as many rows and columns as heights");
   Image image;
   {
-    const py::gil_scoped_release let_go;
+    const WithoutLock let_go;
     RenderSubject subject;
     subject.view = scene.view;
     subject.start = start_heights(before);
@@ -113,7 +128,7 @@ py::array picture(const SceneHere& here, const py::object& heights, const py::ob
 /// Compares two runs and returns JSON text.
 std::string comparison(const std::filesystem::path& golden, const std::filesystem::path& run,
                        const GivenTolerances& given, bool coarsen) {
-  const py::gil_scoped_release let_go;
+  const WithoutLock let_go;
   for (const auto& [name, value] : given) {
     bool known = false;
     for (const ToleranceKey& key : tolerance_keys) known |= key.name == name;
@@ -153,6 +168,7 @@ PYBIND11_MODULE(_sandstroke, module) {
   ignore_write_signals();
   module.attr("version") = version;
   add_errors(module);
+  wait_for_threads_at_exit();
   py::class_<SceneHere>(module, "_Scene")
       .def_property_readonly("text", [](const SceneHere& here) { return scene_text(here.scene); })
       .def_property_readonly("folder", [](const SceneHere& here) { return here.folder; });
@@ -166,7 +182,7 @@ PYBIND11_MODULE(_sandstroke, module) {
     std::optional<Stroke> samples;
     if (!stroke.is_none()) samples = stroke_of(stroke.cast<py::dict>());
     std::optional<HeightField> start;
-    if (!surface.is_none()) start = surface_of(scene.scene, grid_of("surface", surface));
+    if (!surface.is_none()) start = surface_of(scene.scene, grid_with_gaps("surface", surface));
     return or_what_ended_it(
         [&] { return kept_run(scene, std::move(samples), std::move(start), output, threads); });
   });

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "python/arrays.h"
 #include "python/errors.h"
+#include "python/interpreter_lock.h"
 #include "sim/plugin_laws.h"
 
 namespace sandstroke {
@@ -23,7 +24,8 @@ class Function {
  public:
   explicit Function(py::object function)
       : function_(new py::object(std::move(function)), [](py::object* kept) {
-          const py::gil_scoped_acquire interpreter;
+          if (leaving()) return;  // the interpreter frees all, or is no more
+          const WithLock interpreter;
           delete kept;
         }) {}
   /// Call it with the interpreter lock. An exception of the function becomes an error sentence.
@@ -42,8 +44,7 @@ class Function {
 
 /// Sets the cells that a function changed, from (first_row, first_col) on. Returns the moved volume [m^3].
 double take_changes(HeightField& bed, int first_row, int first_col, const HeightGrid& before,
-                    const py::array_t<double>& heights) {
-  const auto after = heights.unchecked<2>();
+                    const HeightGrid& after) {
   double moved = 0.0;
   for (int row = 0; row < before.rows(); ++row)
     for (int col = 0; col < before.cols(); ++col) {
@@ -72,24 +73,24 @@ class PythonRelaxer : public Relaxer {
     const HeightGrid before = bed.grid();
     RelaxationOutcome outcome;
     {
-      const py::gil_scoped_acquire interpreter;
-      py::array_t<double> heights = copy_of(before);
+      const WithLock interpreter;
+      const SharedGrid heights(before);
       py::array_t<bool> walls({before.rows(), before.cols()});
       for (int row = 0; row < bed.rows(); ++row)
         for (int col = 0; col < bed.cols(); ++col) walls.mutable_at(row, col) = bed.is_wall(row, col);
-      const py::object passes = law_(heights, walls, **numbers_of(scene_, cell_size_));
+      const py::object passes = law_(heights.array, walls, **numbers_of(scene_, cell_size_));
       try {
         outcome.passes = passes.is_none() ? 1 : passes.cast<std::int64_t>();
       } catch (const py::cast_error&) {
         throw std::runtime_error(
             "it must change heights in place, and return nothing or the number of passes");
       }
-      const auto after = heights.unchecked<2>();
+      const HeightGrid& after = *heights.grid;
       for (int row = 0; row < bed.rows(); ++row)
         for (int col = 0; col < bed.cols(); ++col)
-          if (walls.at(row, col) && after(row, col) != before(row, col))
+          if (bed.is_wall(row, col) && after(row, col) != before(row, col))
             throw std::runtime_error(fmt::format("it changed the wall in row {}, column {}", row, col));
-      outcome.moved_volume = take_changes(bed, 0, 0, before, heights);
+      outcome.moved_volume = take_changes(bed, 0, 0, before, after);
     }
     // The law of the scene's settings decides, without moving sand, whether the bed is at rest.
     HeightField seen = bed;
@@ -115,7 +116,7 @@ class PythonDisplacer : public Displacer {
 
   double displace(HeightField& bed, const Tool& tool, double tip_height,
                   const Eigen::Vector3d& motion) override {
-    const py::gil_scoped_acquire interpreter;
+    const WithLock interpreter;
     const ToolFootprint& footprint = tool.footprint();
     const CellRange& cells = footprint.cells();
     HeightGrid before(cells.rows(), cells.cols()), underside(cells.rows(), cells.cols());
@@ -124,10 +125,10 @@ class PythonDisplacer : public Displacer {
         before(row, col) = footprint.heights(row)[col];
         underside(row, col) = tip_height + footprint.underside(row)[col];
       }
-    py::array_t<double> heights = copy_of(before);
-    law_(heights, copy_of(underside), py::array_t<double>(3, motion.data()),
+    const SharedGrid heights(before);
+    law_(heights.array, copy_of(underside), py::array_t<double>(3, motion.data()),
          **numbers_of(scene_, cell_size_));
-    return take_changes(bed, cells.row_begin, cells.col_begin, before, heights);
+    return take_changes(bed, cells.row_begin, cells.col_begin, before, *heights.grid);
   }
 
  private:
@@ -142,7 +143,7 @@ class PythonForce : public ToolForce {
       : law_(std::move(law)), scene_(scene), cell_size_(cell_size) {}
 
   Wrench feel(const ToolInSand& touch) override {
-    const py::gil_scoped_acquire interpreter;
+    const WithLock interpreter;
     const py::object given = law_(touch.depth, py::array_t<double>(3, touch.motion.data()),
                                   py::array_t<double>(3, touch.tip.data()), **numbers_of(scene_, cell_size_));
     Wrench wrench;

@@ -4,12 +4,16 @@
 #include <pybind11/stl.h>
 
 #include <array>
+#include <atomic>
 #include <memory>
+#include <mutex>
+#include <thread>
 
 #include "core/error.h"
 #include "io/surface_file.h"
 #include "python/arrays.h"
 #include "python/errors.h"
+#include "python/interpreter_lock.h"
 #include "python/kept_run.h"
 #include "sim/stepped_simulation.h"
 
@@ -25,10 +29,10 @@ class Stepped {
   Stepped(const SceneHere& here, bool relaxes, const py::object& surface)
       : folder_(here.folder), view_(here.scene.view) {
     std::optional<HeightField> start;
-    if (!surface.is_none()) start = surface_of(here.scene, grid_of("surface", surface));
+    if (!surface.is_none()) start = surface_of(here.scene, grid_with_gaps("surface", surface));
     Warnings warnings;
     {
-      const py::gil_scoped_release let_go;
+      const WithoutLock let_go;
       const Scene scene = with_files(here.scene, folder_);
       simulation_ = std::make_unique<SteppedSimulation>(
           scene, start ? *start : load_surface(scene.bed, folder_), relaxes);
@@ -36,11 +40,36 @@ class Stepped {
     warnings.give();
   }
 
-  const SteppedSimulation* operator->() const { return simulation_.get(); }
-  SteppedSimulation* operator->() { return simulation_.get(); }
+  /// Gives work the simulation, without the interpreter lock, and in one thread after the other. Error:
+  /// input, if a law of the simulation itself asks for it.
+  template <class Work>
+  auto use(const Work& work) {
+    if (user_ == std::this_thread::get_id())
+      throw_input_error("a law uses the simulation that has called it; let it use only its arguments");
+    const WithoutLock let_go;
+    const std::scoped_lock turn(turn_);
+    const User user(user_);
+    return work(*simulation_);
+  }
+  const Scene& settings() const { return simulation_->scene(); }
+  BedGeometry cells() const {
+    const BedSettings& bed = settings().bed;
+    return BedGeometry(bed.rows, bed.cols, bed.cell_size());
+  }
   SceneHere scene() const { return {{simulation_->scene(), view_}, folder_}; }
 
  private:
+  /// Tells which thread uses the simulation while it lives.
+  struct User {
+    explicit User(std::atomic<std::thread::id>& user) : thread(user) { thread = std::this_thread::get_id(); }
+    ~User() { thread = std::thread::id(); }
+    User(const User&) = delete;
+    User& operator=(const User&) = delete;
+    std::atomic<std::thread::id>& thread;
+  };
+
+  std::mutex turn_;
+  std::atomic<std::thread::id> user_;
   std::filesystem::path folder_;
   ViewSettings view_;
   std::unique_ptr<SteppedSimulation> simulation_;
@@ -82,22 +111,24 @@ TickRecord tick(Stepped& stepped, const py::object& position, const py::object& 
     hand.orientation = Eigen::Quaterniond(q).normalized();
   }
   return or_what_ended_it([&] {
-    const py::gil_scoped_release let_go;
-    return stepped->tick(hand, {.velocity = moves, .orientation = turns});
+    return stepped.use([&](SteppedSimulation& simulation) {
+      return TickRecord(simulation.tick(hand, {.velocity = moves, .orientation = turns}));
+    });
   });
 }
 
 py::dict relax(Stepped& stepped) {
-  RelaxationOutcome outcome;
   SignalWatch signals;
+  RelaxationRecord record;
   or_what_ended_it([&] {
-    const py::gil_scoped_release let_go;
-    return outcome = stepped->relax([&](std::int64_t, const BedNow&) { signals.look(); });
+    stepped.use([&](SteppedSimulation& simulation) {
+      record.outcome = simulation.relax([&](std::int64_t, const BedNow&) { signals.look(); });
+      record.time = simulation.time();
+    });
   });
-  RelaxationRecord record{stepped->time(), outcome};
   py::dict result;
   visit_relaxation_fields([&](const FieldText& field, const auto& of) { result[field.name] = of(record); });
-  result["converged"] = outcome.converged;
+  result["converged"] = record.outcome.converged;
   return result;
 }
 
@@ -137,16 +168,26 @@ void add_stepped(py::module_& module) {
       .def("tick", &tick, py::arg("position"), py::arg("velocity") = py::none(), py::kw_only(),
            py::arg("down") = true, py::arg("orientation") = py::none())
       .def("relax", &relax)
-      .def("lift", [](Stepped& stepped) { stepped->lift(); })
+      .def("lift", [](Stepped& stepped) { stepped.use([](SteppedSimulation& s) { s.lift(); }); })
       .def("height_at",
-           [](const Stepped& stepped, double x, double y) { return stepped->bed().height_at(x, y); })
-      .def_property_readonly("heights", [](const Stepped& stepped) { return copy_of(stepped->bed().grid()); })
-      .def_property_readonly("time", [](const Stepped& stepped) { return stepped->time(); })
+           [](Stepped& stepped, double x, double y) {
+             return stepped.use([&](SteppedSimulation& s) { return s.bed().height_at(x, y); });
+           })
+      .def_property_readonly(
+          "heights",
+          [](Stepped& stepped) {
+            return copy_of(stepped.use([](SteppedSimulation& s) { return HeightGrid(s.bed().grid()); }));
+          })
+      .def_property_readonly(
+          "time", [](Stepped& stepped) { return stepped.use([](SteppedSimulation& s) { return s.time(); }); })
       .def_property_readonly("scene", &Stepped::scene)
-      .def_property_readonly("volume", [](const Stepped& stepped) { return stepped->bed().volume(); })
-      .def_property_readonly("cell_size", [](const Stepped& stepped) { return stepped->bed().cell_size(); })
-      .def_property_readonly("x", [](const Stepped& stepped) { return columns_of(stepped->bed()); })
-      .def_property_readonly("y", [](const Stepped& stepped) { return rows_of(stepped->bed()); });
+      .def_property_readonly(
+          "volume",
+          [](Stepped& stepped) { return stepped.use([](SteppedSimulation& s) { return s.bed().volume(); }); })
+      .def_property_readonly("cell_size",
+                             [](const Stepped& stepped) { return stepped.settings().bed.cell_size(); })
+      .def_property_readonly("x", [](const Stepped& stepped) { return columns_of(stepped.cells()); })
+      .def_property_readonly("y", [](const Stepped& stepped) { return rows_of(stepped.cells()); });
 }
 
 }  // namespace sandstroke

@@ -52,7 +52,8 @@ SandForce sand_force(double depth, const Eigen::Vector3d& velocity, double max_f
   if (max_force > 0.0 && !within) {
     // The forces overflow, too, at a depth beyond any sense; their direction does not depend on it.
     const Eigen::Vector3d direction = Eigen::Vector3d::UnitZ() - settings.k_f * dragged;
-    force.total = max_force * direction.stableNormalized();
+    force.total = max_force * (direction.allFinite() ? direction.stableNormalized()
+                                                     : Eigen::Vector3d(-dragged.stableNormalized()));
     force.saturated = true;
   }
   return force;

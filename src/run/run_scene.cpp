@@ -11,9 +11,9 @@
 #include "core/hash.h"
 #include "core/input_file.h"
 #include "core/interrupt.h"
-#include "core/log.h"
 #include "core/machine.h"
 #include "core/output_file.h"
+#include "core/warning.h"
 #include "haptics/stroke_coverage.h"
 #include "haptics/stroke_plane.h"
 #include "haptics/stroke_quality.h"
@@ -30,6 +30,7 @@
 #include "measure/stroke_depth.h"
 #include "run/run_progress.h"
 #include "sim/device_force.h"
+#include "sim/tool_fit.h"
 
 namespace sandstroke {
 namespace {
@@ -43,14 +44,15 @@ std::optional<ErrorEstimate> estimated_error(const Scene& scene, const HeightFie
     const ErrorEstimate error = estimate_error(scene, start, stroke, run, force, which, map);
     if (interrupted()) return std::nullopt;
     if (!error.at_rest)
-      spdlog::warn(
-          "the estimated error is not reliable, because the sand did not come to rest in both solutions; "
-          "raise relaxation.max_passes");
+      warn({WarningCode::error_unreliable,
+            "the estimated error is not reliable, because the sand did not come to rest in both solutions; "
+            "raise relaxation.max_passes"});
     return error;
   } catch (const Error& failure) {
     if (failure.kind() != ErrorKind::unstable) throw;
-    spdlog::warn("the error cannot be estimated, because the {} solution is unstable: {}",
-                 which == SecondSolution::finer ? "finer" : "coarser", failure.what());
+    warn({WarningCode::error_unknown,
+          fmt::format("the error cannot be estimated, because the {} solution is unstable: {}",
+                      which == SecondSolution::finer ? "finer" : "coarser", failure.what())});
     return std::nullopt;
   }
 }
@@ -58,22 +60,22 @@ std::optional<ErrorEstimate> estimated_error(const Scene& scene, const HeightFie
 /// The stroke as it is played. scripted: no warnings about its samples.
 Stroke placed_samples(const Scene& scene, const Stroke& loaded, const std::string& name, bool scripted) {
   Stroke placed = place_on_bed(loaded, scene, name);
-  warn_if_any(coverage_warning(placed, name));
+  warn_if_any(WarningCode::stroke_gaps, coverage_warning(placed, name));
   if (scene.stroke->placement.plane != StrokePlane::keep) {
     StrokePlacement cut;
     cut.start = scene.stroke->placement.start;
     cut.stop = scene.stroke->placement.stop;
-    warn_if_any(off_plane_warning(place_stroke(loaded, cut, name), name));
+    warn_if_any(WarningCode::stroke_off_plane, off_plane_warning(place_stroke(loaded, cut, name), name));
   }
   const double smooth = scene.stroke->placement.smooth;
   if (smooth > 0.0 && !is_smoothed(loaded, smooth))
-    spdlog::warn(
-        "{}: stroke.smooth = {:.4g} Hz changes nothing, because the stroke's sampling rate is less than "
-        "twice that",
-        name, smooth);
+    warn({WarningCode::stroke_smooth,
+          fmt::format("{}: stroke.smooth = {:.4g} Hz changes nothing, because the stroke's sampling rate is "
+                      "less than twice that",
+                      name, smooth)});
   if (!scripted)
     for (const std::string& warning : quality_warnings(quality_of(placed)))
-      spdlog::warn("{}: {}", name, warning);
+      warn({WarningCode::stroke_quality, fmt::format("{}: {}", name, warning)});
   return placed;
 }
 
@@ -84,9 +86,10 @@ Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std:
   check_plugin_force(scene, path);
   const Stroke loaded = load_stroke(path, scene.force, scene.stroke->table.value_or(TableSettings{}));
   if (!loaded.complete)
-    spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke ends", name);
+    warn({WarningCode::stroke_cut_off,
+          fmt::format("{}: was cut off while it was recorded; the run ends where the stroke ends", name)});
   // A recorded stroke's bytes also tell which build wrote them, so its content is hashed instead.
-  hash = is_script(path) ? file_hash(path) : content_hash(loaded);
+  hash = is_script(path) && !is_pipe(path) ? file_hash(path) : content_hash(loaded);
   return placed_samples(scene, loaded, name, is_script(path));
 }
 
@@ -98,6 +101,7 @@ std::string scene_file_entry(const std::filesystem::path& scene_file, const std:
 Scene with_files(Scene scene, const std::filesystem::path& folder) {
   scene.bed = with_own_range(scene.bed, folder);  // so that a run file contains it
   scene.tool = with_mesh(scene.tool, folder);
+  if (scene.tool.mesh && scene.stroke) check_tool_fits(scene, (folder / scene.tool.file).string());
   scene.plugin_laws = with_plugin(scene.plugin_laws, folder);
   return scene;
 }
@@ -129,6 +133,7 @@ PlacedStroke load_placed(const Scene& scene, const RunOptions& options) {
 }  // namespace
 
 RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output, const RunOptions& options) {
+  const WarningList given;
   const Scene scene = with_files(asked, options.scene_folder);
   const int cores = tbb::info::default_concurrency();
   const int threads = options.threads > 0 ? std::min(options.threads, cores) : cores;
@@ -140,9 +145,12 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
   HeightField bed = options.surface ? *options.surface : load_surface(scene.bed, options.scene_folder);
   std::optional<HeightField> start;
   if (stroke || options.second) start = bed;
+  if (stroke) check_tool_in_stroke(scene, bed, *stroke, stroke_name);
   Simulation simulation(scene, std::move(bed), stroke);
   if (stroke) {
-    warn_if_any(depth_warning(scene, simulation.bed(), *stroke, stroke_name));
+    warn_if_any(WarningCode::stroke_deep, depth_warning(scene, simulation.bed(), *stroke, stroke_name));
+    warn_if_any(WarningCode::tool_coarse,
+                coarse_tool_warning(scene, deepest_point(scene, simulation.bed(), *stroke).depth));
     if (!output.empty())
       check_disk(output, least_bytes(simulation),
                  "choose another place, free disk space, or store less: output.trace = false, fewer "
@@ -169,7 +177,10 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
   bar.reset();
   if (options.at_end) options.at_end(simulation, result);
   if (writer) writer->end(result, simulation.bed());
-  if (stroke) warn_if_any(make_device_force(scene)->theory_warning(scene, result.max_contact_speed));
+  if (stroke)
+    warn_if_any(WarningCode::force_theory,
+                make_device_force(scene)->theory_warning(scene, result.max_contact_speed));
+  result.warnings = given.warnings();
   if (result.interrupted) return result;
   if (options.second) {
     if (options.progress) spdlog::info("estimating the error");
@@ -179,6 +190,7 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
     HeightField* const kept = map ? &*map : nullptr;
     result.error = estimated_error(scene, *start, stroke, {end, result}, force, *options.second, kept);
     if (result.error && writer) writer->write_error(*result.error, kept);
+    result.warnings = given.warnings();
   }
   if (writer) writer->finish();
   return result;

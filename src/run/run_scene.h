@@ -39,8 +39,8 @@ Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std:
 std::string scene_file_entry(const std::filesystem::path& scene_file, const std::filesystem::path& run_file);
 
 /// Loads bed and stroke, simulates, writes the run file (output empty: none) and, if asked, estimates the
-/// error. There is no estimate if the run was interrupted, or if the second solution is unstable; it warns of
-/// the latter. Error: input, io or unstable.
+/// error. The result has the warnings that were given. There is no estimate if the run was interrupted, or if
+/// the second solution is unstable; it warns of the latter. Error: input, io or unstable.
 RunResult run_scene(const SceneFile& scene, const std::filesystem::path& output, const RunOptions& options);
 
 }  // namespace sandstroke

@@ -61,6 +61,10 @@ nlohmann::ordered_json run_summary(const RunResult& r, const Scene& scene, const
       {"instruction_set", instruction_set()},
       {"interrupted", r.interrupted},
   };
+  json["warnings"] = nlohmann::ordered_json::array();
+  for (const Warning& warning : r.warnings)
+    json["warnings"].push_back(
+        {{"code", warning.kind().word}, {"section", warning.kind().section}, {"text", warning.text}});
   if (r.followed) json["followed"] = followed_json(*r.followed);
   if (r.recorded_force)
     json["recorded_force"] = {{"ticks", r.recorded_force->ticks},

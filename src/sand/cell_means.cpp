@@ -5,23 +5,26 @@
 
 namespace sandstroke {
 
-std::vector<CellMeans::Cover> CellMeans::covers(int here, int there) {
-  std::vector<Cover> all(here);
-  const double ratio = static_cast<double>(there) / here;
-  for (int i = 0; i < here; ++i) {
-    const double from = i * ratio, to = (i + 1) * ratio;
-    all[i].begin = std::min(static_cast<int>(from + 1e-9), there - 1);
-    for (int k = all[i].begin; k < there && (k == all[i].begin || k < to - 1e-9); ++k)
-      all[i].fraction.push_back((std::min(to, k + 1.0) - std::max<double>(from, k)) / ratio);
+std::vector<CellCover> cell_covers(int here, int there) {
+  // In units of 1 / (here * there) of the length all borders are whole numbers: no volume is lost by
+  // rounding.
+  std::vector<CellCover> all(static_cast<std::size_t>(here));
+  for (std::int64_t i = 0; i < here; ++i) {
+    const std::int64_t from = i * there, to = from + there, first = from / here;
+    CellCover& cover = all[static_cast<std::size_t>(i)];
+    cover.begin = static_cast<int>(first);
+    for (std::int64_t k = first; k * here < to; ++k)
+      cover.fraction.push_back(static_cast<double>(std::min(to, (k + 1) * here) - std::max(from, k * here)) /
+                               there);
   }
   return all;
 }
 
 CellMeans::CellMeans(const HeightField& bed, int rows, int cols)
-    : bed_(bed), rows_(covers(rows, bed.rows())), cols_(covers(cols, bed.cols())) {}
+    : bed_(bed), rows_(cell_covers(rows, bed.rows())), cols_(cell_covers(cols, bed.cols())) {}
 
 double CellMeans::operator()(Eigen::Index row, Eigen::Index col) const {
-  const Cover &rows = rows_[row], &cols = cols_[col];
+  const CellCover &rows = rows_[row], &cols = cols_[col];
   double sum = 0.0;
   for (std::size_t i = 0; i < rows.fraction.size(); ++i)
     for (std::size_t j = 0; j < cols.fraction.size(); ++j)

@@ -7,6 +7,15 @@
 
 namespace sandstroke {
 
+/// The cells of one grid, along an axis, that one cell of another grid covers, and the fraction of it that
+/// each fills.
+struct CellCover {
+  int begin = 0;
+  std::vector<double> fraction;
+};
+/// The cover of each of `here` cells by `there` cells of the same length in all.
+std::vector<CellCover> cell_covers(int here, int there);
+
 /// A bed's mean heights [m] in the cells of another grid over the same rectangle, of any size.
 class CellMeans {
  public:
@@ -14,16 +23,8 @@ class CellMeans {
   double operator()(Eigen::Index row, Eigen::Index col) const;
 
  private:
-  /// The cells of the bed, along an axis, that one cell of the grid covers, and the fraction of it that each
-  /// fills.
-  struct Cover {
-    int begin = 0;
-    std::vector<double> fraction;
-  };
-  static std::vector<Cover> covers(int here, int there);
-
   const HeightField& bed_;
-  std::vector<Cover> rows_, cols_;
+  std::vector<CellCover> rows_, cols_;
 };
 
 /// The tiles of `bed` that are allocated, or that overlap an allocated tile of another bed over the same

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "sand/height_field.h"
@@ -17,8 +18,11 @@ struct SurfaceSettings {
   double amplitude = 0.005;      ///< m: noise (uniform in +- amplitude), ripples (half of crest to trough)
   double wavelength = 0.1;       ///< m: ripples; noise (0: every cell on its own)
   std::uint32_t seed = 1;        ///< noise
-  std::string file;              ///< a run file (its final surface) or a 16-bit grayscale PNG
-  double low = 0.0, high = 0.0;  ///< m: heights that a PNG's black and white stand for
+  std::string file;              ///< a run file (its final surface) or a map (io/height_map.h)
+  double low = 0.0, high = 0.0;  ///< m: heights of a picture's black and white, or of a map's lowest and
+                                 ///< highest cell; equal: as the file says
+  double scale = 1.0;            ///< bed metres per metre of a map
+  std::optional<double> nodata;  ///< m: height of a map's cells without data; none: they are refused
 };
 
 /// Makes a bed of rows x cols, centred on the origin, with any surface but `file`. A rule gives the heights;

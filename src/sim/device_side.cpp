@@ -4,6 +4,7 @@
 #include <spdlog/fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/error.h"
@@ -34,6 +35,17 @@ double DeviceSide::faded_in(const TickRecord& record) {
   return std::min(fraction, 1.0);
 }
 
+void DeviceSide::check_numbers(const TickRecord& record) const {
+  const bool force = record.device_force.allFinite() && record.repulse_force.allFinite() &&
+                     record.drag_force.allFinite() && record.wrench.torque.allFinite();
+  if (force && std::isfinite(record.passivity_margin)) return;
+  throw Error(ErrorKind::unstable,
+              fmt::format("at {:.4f} s, {:.4g} m deep, the {} is too large for a number; lower {} or the "
+                          "stroke's depth",
+                          record.time, record.depth, force ? "passivity margin" : "force",
+                          fmt::join(force_->remedy(length_of(record.drag_force)).lower, ", ")));
+}
+
 void DeviceSide::feel(TickRecord& record) {
   Eigen::Vector3d computed = Eigen::Vector3d::Zero();
   FeltSand felt;
@@ -46,6 +58,7 @@ void DeviceSide::feel(TickRecord& record) {
   record.device_force = late_force_.act(computed);
   record.dropped = late_force_.dropped();
   record.passivity_margin = passivity_margin(felt.stiffness, felt.drag, device_.settings());
+  check_numbers(record);
 }
 
 void DeviceSide::move(const TickRecord& record) {
@@ -69,11 +82,6 @@ void DeviceSide::watch(const TickRecord& record, const Eigen::Vector3d& motion) 
 }
 
 void DeviceSide::advance(const TickRecord& record) {
-  if (!record.device_force.allFinite())
-    throw Error(ErrorKind::unstable,
-                fmt::format("at {:.4f} s, {:.4g} m deep, the force is too large for a number; lower "
-                            "force.k_s, force.k_c, force.k_f or the stroke's depth",
-                            record.time, record.depth));
   if (record.lifts) {
     start(record.next);
     late_force_.clear();

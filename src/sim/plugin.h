@@ -8,16 +8,26 @@
 
 namespace sandstroke {
 
+#ifdef __FAST_MATH__  // sets the processor's mode for the whole program, and so changes bits
+#define SANDSTROKE_FLOATING_POINT "fast"
+#else
+#define SANDSTROKE_FLOATING_POINT "exact"
+#endif
+
 /// Text in which a plugin must agree with the program that loads it: the library, the C++ ABI of the
-/// compiler, and how objects lie in memory. Raise `interface` by hand when a class that laws derive from
-/// changes.
-inline std::string plugin_interface() {
+/// compiler, and how objects lie in memory, which also depends on flags such as -march=native. Raise
+/// `interface` by hand when a class that laws derive from changes. static: a plugin must not find another
+/// library's, built with other flags.
+static inline std::string plugin_interface() {
   constexpr int interface = 2;
   return fmt::format(
-      "sandstroke {}, laws {}, C++ ABI {}.{}, Eigen {}.{}.{}, objects of {} {} {} {} {} {} bytes", version,
-      interface, __GXX_ABI_VERSION, _GLIBCXX_USE_CXX11_ABI, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
-      EIGEN_MINOR_VERSION, sizeof(Scene), sizeof(HeightField), sizeof(ToolFootprint), sizeof(Tool),
-      sizeof(RelaxationOutcome), sizeof(Wrench));
+      "sandstroke {}, laws {}, C++ ABI {}.{}, Eigen {}.{}.{} aligned to {} and {} bytes, indices of {} "
+      "bytes, {} "
+      "floating point, objects of {} {} {} {} {} {} bytes aligned to {} {} {}",
+      version, interface, __GXX_ABI_VERSION, _GLIBCXX_USE_CXX11_ABI, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
+      EIGEN_MINOR_VERSION, EIGEN_MAX_ALIGN_BYTES, EIGEN_MAX_STATIC_ALIGN_BYTES, sizeof(Eigen::Index),
+      SANDSTROKE_FLOATING_POINT, sizeof(Scene), sizeof(HeightField), sizeof(ToolFootprint), sizeof(Tool),
+      sizeof(RelaxationOutcome), sizeof(Wrench), alignof(Scene), alignof(HeightField), alignof(Wrench));
 }
 
 }  // namespace sandstroke

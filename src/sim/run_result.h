@@ -6,7 +6,9 @@
 #include <optional>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
+#include "core/warning.h"
 #include "haptics/stroke_coverage.h"
 #include "haptics/stroke_sampler.h"
 #include "sand/relaxation.h"
@@ -274,6 +276,7 @@ struct RunResult {
   std::optional<FollowedSand> followed;          ///< if the stroke follows the sand
   std::optional<ErrorEstimate> error;            ///< if it was asked for
   std::optional<ForceAgreement> recorded_force;  ///< if the stroke was recorded with forces
+  std::vector<Warning> warnings;                 ///< what makes the result doubtful
 };
 
 }  // namespace sandstroke

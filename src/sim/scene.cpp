@@ -6,10 +6,22 @@
 
 #include "core/error.h"
 #include "core/machine.h"
-#include "tool/tool_surface.h"
+#include "sim/tool_fit.h"
 
 namespace sandstroke {
 namespace {
+
+/// Written only where they are set: scenes with run files are as they were before maps were read.
+void describe_map(KeyVisitor& v, SurfaceSettings& s) {
+  if (v.reads() || s.scale != 1.0)
+    v.number("scale", s.scale, positive, "", "bed metres per metre of a map, of lengths and heights");
+  if (v.reads() ? v.given("nodata") : s.nodata.has_value()) {
+    double height = s.nodata.value_or(0.0);
+    v.number("nodata", height, any_number, "m",
+             "height of a map's cells without data; left out: they are refused");
+    s.nodata = height;
+  }
+}
 
 void describe_bed(KeyVisitor& v, BedSettings& bed) {
   v.section("bed", "the sand box, centred on the origin, z up");
@@ -44,9 +56,15 @@ void describe_bed(KeyVisitor& v, BedSettings& bed) {
     s.seed = static_cast<std::uint32_t>(seed);
   }
   if (is(file)) {
-    v.text("file", s.file, "a run file (its final surface) or a 16-bit grayscale PNG");
-    v.number("low", s.low, any_number, "m", "height of a PNG's black; low = high: the PNG's own range");
-    v.number("high", s.high, any_number, "m", "height of a PNG's white; low = high: the PNG's own range");
+    v.text(
+        "file", s.file,
+        "a run file (its final surface), a GeoTIFF, a 16-bit grayscale PNG, a NumPy array (.npy) or an ESRI "
+        "ASCII grid (.asc)");
+    v.number("low", s.low, any_number, "m",
+             "height of a picture's black, or of a map's lowest cell; low = high: as the file says");
+    v.number("high", s.high, any_number, "m",
+             "height of a picture's white, or of a map's highest cell; low = high: as the file says");
+    describe_map(v, s);
   }
 }
 
@@ -255,11 +273,10 @@ void check_bed(const Scene& scene, const std::string& name) {
   check_memory(memory_of_bed(scene), fmt::format("{}: bed.cells = [{}, {}]", name, bed.cols, bed.rows),
                "take fewer cells");
   if (s.kind == SurfaceKind::file && s.file.empty())
-    throw_input_error("{}: bed.surface.file is missing; name a run file or a 16-bit PNG", name);
+    throw_input_error("{}: bed.surface.file is missing; name a run file or a map", name);
 }
 
 void check_tool(const Scene& scene, const std::string& name) {
-  const BedSettings& bed = scene.bed;
   const bool is_sphere = scene.tool.shape == ToolShape::sphere;
   if (!is_sphere && scene.plugin_laws.displacement.empty() && scene.displacement.deposit != Deposit::outward)
     throw_input_error(
@@ -268,20 +285,7 @@ void check_tool(const Scene& scene, const std::string& name) {
         name);
   if (scene.tool.shape == ToolShape::mesh && scene.tool.file.empty())
     throw_input_error("{}: tool.file is missing; name a mesh (.stl)", name);
-  const double reach = is_sphere ? filter::reach(scene.tool.radius) : tool_reach(scene.tool);
-  if (!is_sphere && scene.stroke && 2.0 * reach > std::min(bed.width, bed.depth))
-    throw_input_error(
-        "{}: the tool is {:.3g} m wide and does not fit the bed ({} m by {} m); take a smaller one", name,
-        2.0 * reach, bed.width, bed.depth);
-  if (is_sphere && scene.stroke && 2.0 * reach > std::min(bed.width, bed.depth))
-    throw_input_error(
-        "{}: tool.radius = {} m: the tool and its rampart ({:.3g} m) do not fit the bed ({} m by {} m); take "
-        "a smaller radius",
-        name, scene.tool.radius, 2.0 * reach, bed.width, bed.depth);
-  if (is_sphere && scene.stroke && scene.tool.radius < 0.5 * bed.cell_size())
-    throw_input_error(
-        "{}: tool.radius = {} m is less than half a cell ({} m); take more bed.cells or a larger tool", name,
-        scene.tool.radius, bed.cell_size());
+  if (scene.stroke) check_tool_fits(scene, name);
 }
 
 void check_device(const Scene& scene, const std::string& name) {

@@ -20,6 +20,10 @@ double SteppedSimulation::time() const { return static_cast<double>(ticks_) / sc
 const TickRecord& SteppedSimulation::tick(Hand hand, const ToldMotion& told) {
   if (!hand.position.allFinite() || !hand.velocity.allFinite() || !hand.orientation.coeffs().allFinite())
     throw_input_error("at {:.4f} s the hand's position, velocity or orientation is not a number", time());
+  if (!((hand.position.array().abs() <= most_in_stroke).all() &&
+        (hand.velocity.array().abs() <= most_in_stroke).all()))
+    throw_input_error("at {:.4f} s the hand's position or velocity is beyond {} m or m/s; check its unit",
+                      time(), most_in_stroke);
   if (!told.velocity)
     hand.velocity = last_
                         ? Eigen::Vector3d(scene().device.servo_rate * (hand.position - last_->hand.position))

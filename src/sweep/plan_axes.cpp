@@ -102,6 +102,7 @@ std::pair<SweepAxis, AxisRange> read_axis(const TomlReader& toml, const std::str
   }
   const AxisRange range = read_range(toml, key, most);
   axis.logarithmic = range.logarithmic;
+  axis.of_range = true;
   if (range.count > 0)
     axis.values = as_literals(spread(range.from, range.to, range.count, range.logarithmic));
   else if (grid)

@@ -63,9 +63,11 @@ std::vector<KeySection> all_plan_keys() {
     RangeKeys range;
     show_plan(visitor, plan);
     visitor.section("set", "settings of every point: keys of scenes, such as bed.cells = [500, 500]");
-    visitor.section("axes",
-                    "the settings to vary (the last one varies fastest): keys of scenes, each with a list of "
-                    "values, such as model.preset = [\"paper\", \"accurate\"], or a range");
+    visitor.section(
+        "axes",
+        "the settings to vary (the last one varies fastest): keys of scenes, each with a list of "
+        "values, such as model.preset = [\"paper\", \"accurate\"], or a range. What does not apply at a "
+        "point, as tool.width with tool.shape = \"sphere\", is left out there");
     show_range(visitor, "axes.KEY", range, plan.max_points);
   });
 }

@@ -22,6 +22,7 @@
 #include "io/run_file.h"
 #include "io/scene_toml.h"
 #include "measure/stroke_depth.h"
+#include "sim/tool_fit.h"
 #include "sweep/point_runner.h"
 #include "tool/tool_surface.h"
 
@@ -29,6 +30,8 @@ namespace sandstroke {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t most_looked_at = 1000;  // for an estimate
 
 std::string view_text(const SceneFile& scene) { return scene_text({{}, scene.view}); }
 
@@ -70,7 +73,7 @@ struct Sweep::Work {
   }
 };
 
-Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), inputs_(plan_.scene_folder()) {
+Sweep::Sweep(SweepPlan plan, LookAt look_at) : plan_(std::move(plan)), inputs_(plan_.scene_folder()) {
   std::set<fs::path> known_files;
   const auto add_file = [&](const fs::path& path) {
     if (!known_files.insert(path).second) return;
@@ -80,7 +83,10 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), inputs_(plan_.scene_folde
   if (!plan_.golden.empty()) golden_ = RunFile(plan_.golden).final_bed();
   bool golden_fits = false;
   std::map<std::string, std::size_t> group_of;  // by sand_key
-  for (std::size_t point = 0; point < plan_.design.points() && !interrupted(); ++point) {
+  const std::size_t points = plan_.design.points();
+  for (const std::size_t point : spread_indices(points, look_at == LookAt::some ? most_looked_at : points)) {
+    if (interrupted()) break;
+    ++looked_at_;
     try {
       const SceneFile scene = plan_.scene_of(point);
       if (plan_.keep_picture) check_drawable(scene.bed.rows, scene.bed.cols);
@@ -103,6 +109,44 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), inputs_(plan_.scene_folde
         plan_.file.string(), golden_->cols(), golden_->rows());
 }
 
+std::size_t Sweep::simulations() {
+  return looked_at_ < plan_.design.points() ? estimated_simulations() : groups_.size() - refused_.size();
+}
+
+std::size_t Sweep::estimated_simulations() {
+  const SweepDesign& design = plan_.design;
+  const auto points = static_cast<double>(design.points());
+  if (!design.grid)
+    return static_cast<std::size_t>(points * static_cast<double>(groups_.size()) /
+                                    static_cast<double>(looked_at_));
+  // How many kinds of sand the values of an axis make, beside the first and beside the last point.
+  double simulations = 1.0;
+  for (std::size_t axis = 0; axis < design.axes.size(); ++axis) {
+    const std::size_t values = design.axes[axis].values.size();
+    const std::vector<std::size_t> tried = spread_indices(values, 100);
+    std::size_t most = 1;
+    for (const std::size_t base : {std::size_t{0}, design.points() - 1}) {
+      std::set<std::string> sands;
+      std::vector<std::string> settings = plan_.settings;
+      for (const std::string& setting : design.settings(base)) settings.push_back(setting);
+      for (const std::size_t value : tried) {
+        settings[plan_.settings.size() + axis] =
+            design.axes[axis].key + "=" + design.axes[axis].values[value];
+        try {
+          const SceneFile scene = plan_.scene_with(settings);
+          sands.insert(sand_key(scene, inputs_.stroke(scene).get()));
+        } catch (const Error& error) {
+          if (is_of_the_machine(error)) throw;
+        }
+      }
+      most = std::max(most, sands.size());
+    }
+    const double share = static_cast<double>(values) / static_cast<double>(tried.size());
+    simulations *= most == 1 ? 1.0 : static_cast<double>(most) * share;
+  }
+  return static_cast<std::size_t>(std::min(simulations, points));
+}
+
 SweepManifest Sweep::manifest() const {
   SweepManifest m;
   m.scene = fs::absolute(plan_.scene).lexically_normal().string();
@@ -120,6 +164,7 @@ SweepManifest Sweep::manifest() const {
   }
   m.version = version;
   m.commit = commit;
+  m.plan = fs::absolute(plan_.file).lexically_normal().string();
   return m;
 }
 
@@ -153,6 +198,9 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
       scene.tool = inputs_.tool(scene.tool);
       scene.plugin_laws = inputs_.plugin_laws(scene.plugin_laws);
     }
+    const Scene& scene = scenes.front();  // tool, bed and stroke are those of all
+    if (scene.tool.mesh && stroke) check_tool_fits(scene, scene.tool.file);
+    if (stroke) check_tool_in_stroke(scene, *bed, stroke->stroke, scene.stroke->file);
   } catch (const Error& error) {
     if (is_of_the_machine(error)) throw;
     return refuse(error.what());

@@ -42,21 +42,28 @@ struct SweepCounters {
   std::size_t failed() const { return of(PointVerdict::unstable) + of(PointVerdict::refused); }
 };
 
+/// Which points of a sweep are looked at before it runs. some: a thousand at most, which are enough for
+/// estimate().
+enum class LookAt { all, some };
+
 /// A plan ready to run: knows the scene of each point, and which points share their sand. Error: io, if a
 /// named file cannot be read; input, if no point's bed has the shape of the golden surface.
 class Sweep {
  public:
-  explicit Sweep(SweepPlan plan);
+  explicit Sweep(SweepPlan plan, LookAt look_at = LookAt::all);
 
   const SweepPlan& plan() const { return plan_; }
   const std::vector<PointGroup>& groups() const { return groups_; }
   SweepManifest manifest() const;
+  /// How many points were looked at. Groups and refused points are among these.
+  std::size_t looked_at() const { return looked_at_; }
   /// Points whose settings contradict each other, and why.
   const std::map<std::size_t, std::string>& refused() const { return refused_; }
   /// Points, run by run() or estimate(), whose stroke goes suspiciously deep: depth_warning().
   const std::map<std::size_t, std::string>& too_deep() const { return too_deep_; }
-  /// The number of simulations for all points, as far as known before they run.
-  std::size_t simulations() const { return groups_.size() - refused_.size(); }
+  /// The number of simulations for all points, as far as known before they run. If not all were looked at,
+  /// it goes by which axes change the sand.
+  std::size_t simulations();
 
   /// Runs the shard's points that the folder does not hold yet. Records points that fail, and ends if a file
   /// cannot be written. Stops at the next tick when interrupted(). Error: io, also if another process runs
@@ -72,6 +79,7 @@ class Sweep {
 
  private:
   struct Work;
+  std::size_t estimated_simulations();
   /// Takes group after group from `work` and runs it.
   void work_through(const SweepFolder& folder, Work& work);
   /// Runs these points of a group and writes their files; calls `written` after each. Stops when
@@ -82,6 +90,7 @@ class Sweep {
   SweepPlan plan_;
   SweepInputs inputs_;
   std::optional<HeightField> golden_;  // the surface to compare with
+  std::size_t looked_at_ = 0;
   std::vector<PointGroup> groups_;
   std::map<std::size_t, std::string> refused_;
   std::mutex too_deep_mutex_;

@@ -1,9 +1,12 @@
 #include "sweep/slurm_jobs.h"
 
+#include <pwd.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -61,10 +64,32 @@ long submit(const std::vector<std::string>& options, const fs::path& script) {
   const std::optional<ChildResult> result = run_child(words);
   if (!result) fail_without_slurm();
   const long id = leading_number(result->out, 0L);  // "id", or "id;cluster"
-  if (result->exit_code != 0 || id <= 0)
-    throw_input_error("Slurm did not take {}: {}", script.string(),
-                      result->err.empty() ? "sbatch said nothing" : result->err);
-  return id;
+  if (result->exit_code == 0 && id > 0) return id;
+  const std::string sentence =
+      fmt::format("Slurm did not take {}: {}", script.string(),
+                  result->err.empty() ? "sbatch said nothing" : one_line(result->err));
+  for (const char* reason :
+       {"Invalid job array specification", "SubmitJobsLimit", "SubmitJobLimit", "job submit limit"})
+    if (sentence.find(reason) != std::string::npos) throw TooManyTasks(sentence);
+  throw_input_error("{}", sentence);
+}
+
+/// The numbers in the lines of a text that begin with `name` and, if it is not empty, "=".
+std::vector<int> numbers_of(const std::string& text, const std::string& name) {
+  std::vector<int> numbers;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with(name)) continue;
+    const auto digits = line.find_first_of("0123456789", name.size());
+    if (digits != std::string::npos) numbers.push_back(leading_number(line.substr(digits), 0));
+  }
+  return numbers;
+}
+
+/// What a program prints; empty, if it is missing or fails.
+std::string printed_by(const std::vector<std::string>& words) {
+  const std::optional<ChildResult> result = run_child(words);
+  return result && result->exit_code == 0 ? result->out : "";
 }
 
 /// Refuses to submit while the last jobs are queued: Slurm would run the same points twice.
@@ -142,7 +167,7 @@ SlurmQueue ask_slurm_queue(const SlurmJobs& jobs) {
       {"squeue", "--noheader", "--array", "--states=all",
        fmt::format("--jobs={},{}", jobs.array, jobs.collect ? jobs.collect : jobs.array), queue_format});
   if (!result) return {std::nullopt, "squeue is not installed"};
-  if (result->exit_code != 0) return {std::nullopt, result->err};
+  if (result->exit_code != 0) return {std::nullopt, one_line(result->err)};
   return {parse_queue(result->out), ""};
 }
 
@@ -151,7 +176,38 @@ void check_slurm() {
   const std::optional<ChildResult> queue = run_child({"squeue", "--noheader", "--me"});
   if (queue && queue->exit_code != 0)
     throw_io_error("no cluster answers ({}); submit from a machine with Slurm, or leave out --slurm",
-                   queue->err.substr(queue->err.rfind('\n') + 1));
+                   one_line(queue->err));
+}
+
+int SlurmLimits::most_tasks() const {
+  int most = std::numeric_limits<int>::max();
+  if (array_size) most = std::min(most, *array_size - 1);
+  if (submit_jobs) most = std::min(most, *submit_jobs - queued - 1);
+  return std::max(most, 1);
+}
+
+std::string SlurmLimits::text() const {
+  std::vector<std::string> limits;
+  if (array_size) limits.push_back(fmt::format("MaxArraySize = {}", *array_size));
+  if (submit_jobs) limits.push_back(fmt::format("MaxSubmitJobs = {}, {} queued", *submit_jobs, queued));
+  return fmt::format("{}", fmt::join(limits, ", "));
+}
+
+SlurmLimits ask_slurm_limits() {
+  SlurmLimits limits;
+  const std::vector<int> sizes = numbers_of(printed_by({"scontrol", "show", "config"}), "MaxArraySize");
+  if (!sizes.empty()) limits.array_size = sizes.front();
+  const passwd* user = getpwuid(geteuid());
+  if (!user) return limits;
+  const std::vector<int> most =
+      numbers_of(printed_by({"sacctmgr", "--noheader", "--parsable2", "show", "associations", "where",
+                             fmt::format("user={}", user->pw_name), "format=MaxSubmitJobs"}),
+                 "");
+  if (most.empty()) return limits;
+  limits.submit_jobs = *std::min_element(most.begin(), most.end());
+  const std::string queue = printed_by({"squeue", "--noheader", "--me", "--array", "--format=%i"});
+  limits.queued = static_cast<int>(std::count(queue.begin(), queue.end(), '\n')) + !queue.empty();
+  return limits;
 }
 
 SlurmJobs submit_to_slurm(const SlurmOptions& options, const SlurmWork& work, std::vector<SlurmTask> tasks,

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "sweep/slurm_script.h"
 
 namespace sandstroke {
@@ -50,12 +51,33 @@ struct SlurmQueue {
 };
 SlurmQueue ask_slurm_queue(const SlurmJobs& jobs);
 
+/// How many tasks a cluster takes; none: it does not say.
+struct SlurmLimits {
+  std::optional<int> array_size;   ///< MaxArraySize: the numbers of tasks are below it
+  std::optional<int> submit_jobs;  ///< MaxSubmitJobs, of the user's associations
+  int queued = 0;                  ///< jobs of the user that are queued and count for submit_jobs
+
+  /// The largest number of tasks beside the job that collects; at least 1.
+  int most_tasks() const;
+  /// "MaxArraySize = 1001"; empty: there is no limit.
+  std::string text() const;
+};
+/// Asks scontrol, sacctmgr and squeue. What is missing or does not answer sets no limit.
+SlurmLimits ask_slurm_limits();
+
+/// sbatch refuses because of the number of tasks.
+class TooManyTasks : public Error {
+ public:
+  explicit TooManyTasks(const std::string& sentence) : Error(ErrorKind::input, sentence) {}
+};
+
 /// Checks Slurm before anything is written. Error: io, if sbatch is not installed or no cluster answers.
 void check_slurm();
 
 /// Writes DIR/slurm/job.sh and collect.sh, submits both (collect.sh runs after job.sh) and writes jobs.json.
 /// tasks: the tasks to submit; of: the number of all tasks. Error: input, if the sweep's last jobs are still
-/// queued, or with sbatch's sentence if it refuses; io, if Slurm is missing or does not answer.
+/// queued, or with sbatch's sentence if it refuses (TooManyTasks); io, if Slurm is missing or does not
+/// answer.
 SlurmJobs submit_to_slurm(const SlurmOptions& options, const SlurmWork& work, std::vector<SlurmTask> tasks,
                           int of);
 

@@ -23,8 +23,8 @@ struct SlurmWork {
   std::filesystem::path folder;   ///< of the sweep, as the user named it
 };
 
-/// The number of tasks with which each runs four simulations per processor. At most Slurm's default limit
-/// (MaxArraySize: 1000).
+/// The number of tasks with which each runs four simulations per processor. At most 1000, which Slurm takes
+/// by default (MaxArraySize: 1001).
 int default_tasks(std::size_t simulations, int cpus_per_task);
 
 /// Writes increasing task numbers for sbatch's --array: "1-3,7".

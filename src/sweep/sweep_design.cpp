@@ -85,6 +85,13 @@ std::vector<double> spread(double from, double to, std::size_t count, bool logar
   return values;
 }
 
+std::vector<std::size_t> spread_indices(std::size_t n, std::size_t most) {
+  const std::size_t count = std::min(n, most);
+  std::vector<std::size_t> indices(count);
+  for (std::size_t i = 0; i < count; ++i) indices[i] = count == n ? i : i * (n - 1) / (count - 1);
+  return indices;
+}
+
 std::vector<std::vector<double>> latin_hypercube(std::size_t axes, std::size_t n, std::uint32_t seed) {
   std::mt19937_64 random(seed);
   const auto below_one = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };

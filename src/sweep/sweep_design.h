@@ -12,6 +12,7 @@ struct SweepAxis {
   std::string unit;                 ///< the setting's unit; empty: none
   bool logarithmic = false;         ///< its values are spread evenly on a logarithmic scale
   std::vector<std::string> values;  ///< TOML literals
+  bool of_range = false;            ///< its values come from a range, not from a list
 
   /// True if every value is a number.
   bool numeric() const;
@@ -43,6 +44,9 @@ double rounded(double value, double size);
 /// Spreads `count` >= 1 numbers evenly from `from` to `to`, or evenly on a logarithmic scale (from, to > 0).
 /// The ends are exact, the others rounded().
 std::vector<double> spread(double from, double to, std::size_t count, bool logarithmic);
+
+/// Which of n indices to look at: all, or `most` (at least 2) spread evenly, with the first and the last.
+std::vector<std::size_t> spread_indices(std::size_t n, std::size_t most);
 
 /// Latin hypercube (McKay, Beckman & Conover 1979): for each axis n numbers in [0, 1), one at a random
 /// position in each n-th of it, in random order. The same seed gives the same numbers on any machine.

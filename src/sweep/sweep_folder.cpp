@@ -40,6 +40,7 @@ Json to_json(const SweepManifest& m) {
           {"keep_picture", m.keep_picture},
           {"estimate_error", m.estimate_error},
           {"golden", m.golden},
+          {"plan", m.plan},
           {"inputs", inputs}};
 }
 
@@ -57,6 +58,7 @@ SweepManifest from_json(const Json& json) {
   m.keep_picture = json.at("keep_picture");
   m.estimate_error = json.value("estimate_error", "");  // early manifests lack it
   m.golden = json.at("golden");
+  m.plan = json.value("plan", "");  // as above
   for (const Json& input : json.at("inputs")) m.inputs.emplace_back(input.at("file"), input.at("hash"));
   return m;
 }
@@ -65,6 +67,7 @@ SweepManifest from_json(const Json& json) {
 Json without_paths(Json manifest) {
   manifest.erase("scene");
   manifest.erase("golden");
+  manifest.erase("plan");
   for (Json& input : manifest["inputs"]) input.erase("file");
   return manifest;
 }
@@ -78,6 +81,24 @@ bool is_whole(const SweepDesign& design) {
            return !axis.values.empty() &&
                   (design.grid || axis.values.size() == design.axes.front().values.size());
          });
+}
+
+/// Without settings that do not apply beside the others: a run refuses them. All, if the scene has gone.
+std::vector<std::string> those_that_apply(const std::string& scene, std::vector<std::string> settings) {
+  const auto key_of = [](const std::string& setting) { return setting.substr(0, setting.find('=')); };
+  if (std::none_of(settings.begin(), settings.end(),
+                   [&](const std::string& setting) { return applies_conditionally(key_of(setting)); }))
+    return settings;
+  try {
+    std::vector<LeftOut> left_out;
+    combined_scene({read_text_file(scene), scene}, settings, left_out);
+    std::erase_if(settings, [&](const std::string& setting) {
+      return std::any_of(left_out.begin(), left_out.end(),
+                         [&](const LeftOut& one) { return one.key == key_of(setting); });
+    });
+  } catch (const Error&) {  // of a point that is refused
+  }
+  return settings;
 }
 
 constexpr OutputKind manifest_output{"a sweep's manifest", "{\n  \"format\": \"sandstroke.sweep\""};
@@ -225,8 +246,9 @@ void SweepFolder::write(std::size_t point, const PointResult& result, const std:
 std::string SweepFolder::command(std::size_t point) const {
   std::string command = "sandstroke run " + shell_quoted(manifest_.scene);
   const auto set = [&](const std::string& setting) { command += " --set " + shell_quoted(setting); };
-  for (const std::string& setting : manifest_.settings) set(setting);
-  for (const std::string& setting : design().settings(point)) set(setting);
+  std::vector<std::string> settings = manifest_.settings;
+  for (const std::string& setting : design().settings(point)) settings.push_back(setting);
+  for (const std::string& setting : those_that_apply(manifest_.scene, settings)) set(setting);
   return command + fmt::format(" -o point-{:06}.h5", point);
 }
 

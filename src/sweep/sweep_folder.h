@@ -23,6 +23,7 @@ struct SweepManifest {
   /// The files that the sweep reads, and their hashes. The scene is first.
   std::vector<std::pair<std::string, std::string>> inputs;
   std::string version, commit;  ///< of the program
+  std::string plan;             ///< the plan's file; empty: an early manifest. It decides no result
 };
 
 /// Largest size of a sweep's own JSON files: a million values with long names, tasks of ten million points.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/counted.h"
+#include "core/shell_text.h"
 #include "core/small_letters.h"
 
 namespace sandstroke {
@@ -32,6 +33,14 @@ void add_queued(TaskStatus& task, const SlurmJobs& jobs, const SlurmQueue& queue
   }
 }
 
+/// The command that goes on with the sweep, in words where the folder does not tell its plan.
+std::string command_again(const SweepFolder& folder, bool on_slurm) {
+  const std::string& plan = folder.manifest().plan;
+  if (plan.empty()) return "run the same command again";
+  return fmt::format("run sandstroke sweep {} -o {}{}", shell_quoted(plan), shell_quoted(folder.path()),
+                     on_slurm ? " --slurm" : "");
+}
+
 bool is_collected(const SweepFolder& folder) {
   const fs::path file = folder.path() / "sweep.h5";
   if (!fs::exists(file)) return false;
@@ -50,6 +59,8 @@ SweepStatus sweep_status(const SweepFolder& folder, const std::optional<SlurmJob
                          const SlurmQueue& queue) {
   SweepStatus status;
   status.points = folder.points();
+  status.again = command_again(folder, jobs.has_value());
+  status.collect = "sandstroke sweep collect " + shell_quoted(folder.path());
   status.collected = is_collected(folder);
   std::vector<bool> point_missing(folder.points()), point_failed(folder.points());
   for (std::size_t point = 0; point < folder.points(); ++point) {
@@ -81,11 +92,10 @@ SweepStatus sweep_status(const SweepFolder& folder, const std::optional<SlurmJob
 }
 
 std::string SweepStatus::advice() const {
-  const std::string again = "run the same command again";
   if (missing == 0)
     return fmt::format("all points are done{}: {}",
                        failures.empty() ? "" : fmt::format(", but {} failed", failures.size()),
-                       collected ? "sweep.html shows them" : "collect them with sandstroke sweep collect");
+                       collected ? "sweep.html shows them" : "collect them with " + collect);
   if (!array) return fmt::format("{} missing: {}", counted(missing, "point"), again);
   if (!queue_trouble.empty())
     return fmt::format("{} missing, and the queue cannot be asked: {}; when nothing is queued, {}",

@@ -31,6 +31,7 @@ struct SweepStatus {
   std::optional<long> array;                                  ///< the job array's id, if it was submitted
   std::vector<TaskStatus> tasks;                              ///< the array's tasks
   std::string queue_trouble;                                  ///< why the queue could not be asked, or empty
+  std::string again, collect;                                 ///< commands that go on with it, or collect it
 
   /// Says how far the sweep is, and what to do next.
   std::string advice() const;

@@ -1,7 +1,5 @@
 #include "tool/check_mesh.h"
 
-#include <spdlog/spdlog.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -10,12 +8,14 @@
 #include <utility>
 
 #include "core/error.h"
+#include "tool/mesh_bodies.h"
 
 namespace sandstroke {
 namespace {
 
 constexpr std::size_t most_triangles = 2'000'000;
-constexpr double largest_tool = 1.0;  // m
+constexpr double largest_tool = 1.0;    // m
+constexpr double least_volume = 1e-15;  // m^3
 
 /// Merges corners that lie within a millionth of the extent. Rounding in the file's digits separates them.
 TriangleMesh welded(const TriangleMesh& mesh, double extent) {
@@ -53,8 +53,9 @@ double check_extent(const TriangleMesh& mesh, const std::string& name) {
   const double extent = box.sizes().maxCoeff();
   if (extent > largest_tool)
     throw_input_error(
-        "{}: is {:.4g} m large, too large for a tool; if the mesh is in millimetres, set tool.scale = 0.001, "
-        "otherwise a smaller scale",
+        "{}: is {:.4g} m large, too large for a tool; is the mesh in millimetres? Then set tool.scale = "
+        "0.001; "
+        "otherwise set a smaller scale",
         name, extent);
   const double away = box.exteriorDistance(Eigen::Vector3d(Eigen::Vector3d::Zero()));
   if (away > extent)
@@ -102,16 +103,14 @@ TriangleMesh checked_mesh(const TriangleMesh& mesh, const std::string& name) {
   if (mesh.triangles.empty()) throw_input_error("{}: has no triangles; export the mesh again", name);
   TriangleMesh checked = welded(mesh, check_extent(mesh, name));
   if (checked.triangles.empty()) throw_input_error("{}: has no triangles; export the mesh again", name);
+  checked = with_triangles_once(checked, name);
   check_closed(checked, name);
-  const double volume = enclosed_volume(checked);
-  if (!(std::abs(volume) > 1e-15))
+  if (!checked.triangles.empty()) checked = outermost_bodies(checked, name);
+  const double volume = checked.triangles.empty() ? 0.0 : enclosed_volume(checked);
+  if (!(volume > least_volume))
     throw_input_error(
         "{}: encloses {:.3g} m^3, which is too little to displace sand; use a solid, or a larger tool.scale",
         name, volume);
-  if (volume < 0.0) {
-    spdlog::warn("{}: is inside out; its triangles are turned over", name);
-    for (auto& corners : checked.triangles) std::swap(corners[1], corners[2]);
-  }
   return checked;
 }
 

@@ -9,8 +9,10 @@
 
 #include "cli/program.h"
 #include "io/png_file.h"
+#include "io/png_map.h"
 #include "io/run_file.h"
 #include "io/stroke_file.h"
+#include "map_values.h"
 #include "real_client.h"
 
 namespace sandstroke {
@@ -176,11 +178,13 @@ TEST(CliExport, APngThatABedBeganAsComesOutAsItWentIn) {
   write_file(folder / "silent.png", silent);
   run_from_png(folder, "silent.png", "d.h5", {"bed.surface.low=1.0", "bed.surface.high=1.002"});
   expect_export(folder, "d.png", {}, "d.h5");
-  EXPECT_TRUE((read_height_png(folder / "d.png") == read_height_png(folder / "silent.png")).all());
-  expect_refused(run_program({"run", "flat.toml", "-o", "e.h5", "--set", "bed.surface.kind=file", "--set",
-                              "bed.surface.file=silent.png"},
-                             folder),
-                 "silent.png: the PNG does not say its heights, and bed.surface.low and high are both 0 m");
+  EXPECT_TRUE(
+      (values_of(*open_png_map(folder / "d.png")) == values_of(*open_png_map(folder / "silent.png"))).all());
+  expect_refused(
+      run_program({"run", "flat.toml", "-o", "e.h5", "--set", "bed.surface.kind=file", "--set",
+                   "bed.surface.file=silent.png"},
+                  folder),
+      "silent.png: the picture does not say its heights, and bed.surface.low and high are both 0 m");
 }
 
 TEST(CliExport, ARangeThatIsAskedForCutsWhatIsBeyondAndSaysSo) {
@@ -192,7 +196,7 @@ TEST(CliExport, ARangeThatIsAskedForCutsWhatIsBeyondAndSaysSo) {
       cut.err.find(fmt::format("{} of 15000 cells are outside the range", (heights.abs() > 0.001).count())),
       std::string::npos)
       << cut.err;
-  const HeightGrid gray = -0.001 + 0.002 * read_height_png(folder / "a.png");
+  const HeightGrid gray = -0.001 + 0.002 * values_of(*open_png_map(folder / "a.png"));
   EXPECT_LE((gray - heights.max(-0.001).min(0.001)).abs().maxCoeff(), 0.002 / 65535.0);
   expect_refused(export_to(folder, "a.png", {"--range", "1,1"}), "--range 1,1 is empty");
 }

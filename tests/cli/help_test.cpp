@@ -141,7 +141,7 @@ TEST(CliHelp, HasNoPageOfWhatIsNotThere) {
            {"help", "sand"}, {"help", "--man", "run"}, {"help", "run", "x"}}) {
     const ProgramResult result = run_program(words, testing::TempDir());
     EXPECT_EQ(result.exit_code, 2);
-    EXPECT_NE(result.err.find("scene, script, plan, metrics"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("scene, script, plan, metrics, warnings"), std::string::npos) << result.err;
   }
 }
 

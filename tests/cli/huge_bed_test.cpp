@@ -84,7 +84,7 @@ TEST(CliHugeBed, WhatWouldTakeAllOfItIsRefusedAtOnce) {
   refused({"run", "huge.toml", "-o", "a.h5", "--png", "a.png"}, "65536 x 65536 cells cannot be drawn");
   EXPECT_FALSE(fs::exists(folder / "a.h5"));
   refused({"run", "small.toml", "-o", "a.h5", "--set", "bed.surface={kind='file', file='huge.h5'}"},
-          "huge.h5: has 65536 x 65536 cells (x, y), but bed.cells = [1024, 1024]");
+          "huge.h5: is a bed of 65536 x 65536 cells, 128 m by 128 m, but bed.size = [2, 2]");
   refused({"run", "huge.toml", "-o", "a.h5", "--set", "bed.surface={kind='noise', wavelength=0.0}"},
           "GB of memory");
   for (const std::vector<std::string>& arguments :

@@ -106,8 +106,8 @@ TEST_F(CliLivePage, ShowsTheFurrowWhereTheStrokeWentAndTurnsByMouseAndKeys) {
 
 TEST_F(CliLivePage, DrawsTheToolAsItIs) {
   Viewed program({"record", "--device", "scripted:line.toml", "--feel", "scene.toml", "--set",
-                  "tool.shape=plate", "--set", "tool.width=0.12", "--set", "model.preset=accurate", "--view",
-                  "--no-open", "--max-skipped", "100", "-o", "plate.h5"},
+                  "tool.shape=plate", "--set", "tool.width=0.12", "--set", "tool.thickness=0.006", "--set",
+                  "model.preset=accurate", "--view", "--no-open", "--max-skipped", "100", "-o", "plate.h5"},
                  test_folder_);
   open(program);
   browser().wait_for("live.ended && live.view.tool !== null");

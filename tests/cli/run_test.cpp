@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <spdlog/fmt/fmt.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -11,10 +12,12 @@
 #include <utility>
 
 #include "cli/program.h"
+#include "core/output_file.h"
 #include "hdf5/hdf5_reader.h"
 #include "io/run_file.h"
 #include "io/stroke_file.h"
 #include "sanitized.h"
+#include "test_folder.h"
 
 namespace sandstroke {
 namespace {
@@ -31,6 +34,125 @@ TEST(CliRun, WritesARunFileXdmfAndPicture) {
   EXPECT_NE(run.out.find("volume drift"), std::string::npos);
   EXPECT_NE(run.out.find("for ParaView       a.xdmf\n"), std::string::npos) << run.out;
   EXPECT_NE(run.out.find("picture            a.png\n"), std::string::npos) << run.out;
+}
+
+TEST(CliRun, GoesOnFromItsOwnRunInOneCommand) {
+  const fs::path folder = test_folder();
+  fs::create_directory(folder / "rippled");
+  write_file(folder / "rippled/line.toml", read_file(folder / "line.toml"));
+  write_file(folder / "rippled/scene.toml", read_file(folder / "scene.toml") +
+                                                "[bed.surface]\nkind = \"ripples\"\namplitude = 0.002\n"
+                                                "wavelength = 0.05\n");
+  ASSERT_EQ(run_program({"run", "rippled/scene.toml", "-o", "a.h5"}, folder).exit_code, 0);
+  // The run file is in this folder, not beside the scene.
+  const ProgramResult next = run_program({"run", "rippled/scene.toml", "--set", "bed.surface.kind=file",
+                                          "--set", "bed.surface.file=a.h5", "-o", "b.h5"},
+                                         folder);
+  ASSERT_EQ(next.exit_code, 0) << next.err;
+  EXPECT_NE(next.err.find("rippled/scene.toml: bed.surface.amplitude, bed.surface.wavelength are left out, "
+                          "because they apply only where bed.surface.kind is noise or ripples"),
+            std::string::npos)
+      << next.err;
+  EXPECT_TRUE((RunFile(folder / "b.h5").initial() == RunFile(folder / "a.h5").final()).all());
+  // Its own scene has what was read.
+  EXPECT_EQ(run_program({"info", "--scene", "b.h5"}, folder).out.find("amplitude"), std::string::npos);
+  const ProgramResult bare = run_program({"run", "scene.toml", "--unset", "stroke", "-o", "c.h5"}, folder);
+  EXPECT_EQ(bare.exit_code, 0) << bare.err;
+  EXPECT_FALSE(RunFile(folder / "c.h5").has_trace());
+  const ProgramResult wrong = run_program({"run", "scene.toml", "--unset", "strike"}, folder);
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("--unset strike: scene.toml has no such key"), std::string::npos) << wrong.err;
+}
+
+TEST(CliRun, StrictEndsWithCode3WhereThereIsAWarningWhoseWordJsonGives) {
+  const fs::path folder = test_folder();
+  struct Doubt {
+    std::vector<std::string> settings;
+    std::string word, section;
+  };
+  for (const Doubt& doubt : {Doubt{{"stroke.offset=[0, 0, 0.02]"}, "nothing-touched", "stroke"},
+                             Doubt{{"relaxation.max_passes=1"}, "not-at-rest", "relaxation"},
+                             Doubt{{"force.law=rft", "force.friction_angle=50"}, "force-theory", "force"},
+                             Doubt{{"stroke.offset=[0, 0, -0.5]"}, "stroke-deep", "stroke"}}) {
+    std::vector<std::string> arguments = {"run", "scene.toml", "--json"};
+    for (const std::string& setting : doubt.settings) {
+      arguments.emplace_back("--set");
+      arguments.push_back(setting);
+    }
+    const nlohmann::json json = nlohmann::json::parse(run_program(arguments, folder).out);
+    const auto found = std::find_if(json["warnings"].begin(), json["warnings"].end(),
+                                    [&](const nlohmann::json& one) { return one["code"] == doubt.word; });
+    ASSERT_NE(found, json["warnings"].end()) << json["warnings"];
+    EXPECT_EQ((*found)["section"], doubt.section);
+    arguments.emplace_back("--strict");
+    const ProgramResult strict = run_program(arguments, folder);
+    EXPECT_EQ(strict.exit_code, 3);
+    EXPECT_NE(strict.err.find(doubt.word + " ([" + doubt.section + "])"), std::string::npos) << strict.err;
+    EXPECT_NE(strict.err.find((*found)["text"].get<std::string>()), std::string::npos) << strict.err;
+  }
+  const ProgramResult fine =
+      run_program({"run", "scene.toml", "--json", "--strict", "--set", "model.preset=accurate"}, folder);
+  EXPECT_EQ(fine.exit_code, 0) << fine.err;
+  EXPECT_TRUE(nlohmann::json::parse(fine.out)["warnings"].empty()) << fine.out;
+  // What was left out makes no result doubtful.
+  write_file(folder / "rippled.toml",
+             read_file(folder / "scene.toml") +
+                 "[bed.surface]\nkind = \"ripples\"\namplitude = 0.001\nwavelength = 0.05\n");
+  const ProgramResult flat = run_program(
+      {"run", "rippled.toml", "--strict", "--set", "model.preset=accurate", "--set", "bed.surface.kind=flat"},
+      folder);
+  EXPECT_EQ(flat.exit_code, 0) << flat.err;
+  EXPECT_NE(flat.err.find("are left out"), std::string::npos) << flat.err;
+}
+
+/// Pipes without an end to wait for: each has a writer that gives it a file.
+TEST(CliRun, TakesPipesInPlaceOfFilesOrSaysThatItCannot) {
+  const fs::path folder = test_folder();
+  std::string table = "time [s],x [m],y [m],z [m]\n";
+  for (int i = 0; i <= 200; ++i) table += fmt::format("{},{},0,-0.004\n", 0.002 * i, 0.0005 * i - 0.05);
+  write_file(folder / "table.csv", table);
+  ASSERT_EQ(run_program({"run", "scene.toml", "--stroke", "table.csv", "-o", "plain.h5"}, folder).exit_code,
+            0);
+  const RunFile plain(folder / "plain.h5");
+  const auto with_pipe = [&](const std::string& name, const std::string& content,
+                             std::vector<std::string> arguments) {
+    const fs::path pipe = folder / name;
+    fs::remove(pipe);
+    EXPECT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    std::jthread writer([&] {
+      const int end = open(pipe.c_str(), O_WRONLY | O_CLOEXEC);
+      for (std::size_t at = 0; end >= 0 && at < content.size();) {
+        const ssize_t count = write(end, content.data() + at, content.size() - at);
+        if (count <= 0) break;
+        at += static_cast<std::size_t>(count);
+      }
+      if (end >= 0) close(end);
+    });
+    const ProgramResult result = run_program(arguments, folder);
+    close(open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));  // so that a writer whom nobody heard ends
+    return result;
+  };
+  for (const std::string name : {"pipe", "pipe.csv"}) {
+    const ProgramResult run =
+        with_pipe(name, table, {"run", "scene.toml", "--stroke", name, "-o", "piped.h5"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_TRUE((RunFile(folder / "piped.h5").final() == plain.final()).all());
+  }
+  ProgramResult run = with_pipe("script.toml", read_file(folder / "line.toml"),
+                                {"run", "scene.toml", "--stroke", "script.toml", "-o", "piped.h5"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  run = with_pipe("scene-pipe", read_file(folder / "scene.toml"), {"run", "scene-pipe", "-o", "piped.h5"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  for (const std::vector<std::string>& settings :
+       std::vector<std::vector<std::string>>{{"bed.surface.kind=file", "bed.surface.file=p.h5"},
+                                             {"tool.shape=mesh", "tool.file=p.h5"},
+                                             {"model.plugin=p.h5", "model.force=f"}}) {
+    std::vector<std::string> arguments = {"run", "scene.toml", "--set", "displacement.deposit=outward"};
+    for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
+    run = with_pipe("p.h5", "", arguments);
+    EXPECT_TRUE(run.exit_code == 2 || run.exit_code == 4) << run.exit_code;
+    EXPECT_NE(run.err.find("p.h5: "), std::string::npos) << run.err;
+  }
 }
 
 TEST(CliRun, JsonIsOneObjectWithTheDesignsNames) {

@@ -80,6 +80,62 @@ TEST_F(CliSweep, LeavesNothingWithoutACluster) {
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
+TEST_F(CliSweep, KeepsToTheNumberOfTasksThatAClusterTakes) {
+  plan("relaxation.talus_angle = { from = 20, to = 45, count = 60 }\n");
+  const fs::path bin = folder / "bin";
+  fs::create_directory(bin);
+  const auto program = [&](const std::string& name, const std::string& text) {
+    write_file(bin / name, "#!/bin/sh\n" + text + "\n");
+    fs::permissions(bin / name, fs::perms::owner_all);
+  };
+  program("squeue", "exit 0");
+  program("scontrol", "exit 1");
+  program("sacctmgr", "exit 1");
+  // Refuses arrays of task 11 and above, as a cluster with MaxArraySize = 11 does.
+  program("sbatch",
+          "for file; do :; done; [ \"$1\" = --version ] && exit 0\n"
+          "last=$(sed -n 's/^#SBATCH --array=.*[-,]//p' \"$file\")\n"
+          "[ \"${last:-1}\" -gt 10 ] && { echo 'sbatch: error: one' >&2; echo 'sbatch: error: Batch job "
+          "submission "
+          "failed: Invalid job array specification' >&2; exit 1; }\n"
+          "echo 4242");
+  Conditions conditions;
+  conditions.path = bin.string() + ":/usr/bin:/bin";
+  const ProgramResult halved = sweep({"plan.toml", "-o", "halved", "--slurm"}, conditions);
+  EXPECT_EQ(halved.exit_code, 0) << halved.err;
+  EXPECT_NE(
+      halved.err.find("sbatch: error: one; sbatch: error: Batch job submission failed: Invalid job array "
+                      "specification: tries 7 tasks instead of 15"),
+      std::string::npos)
+      << halved.err;
+  EXPECT_NE(halved.out.find("of 7 tasks"), std::string::npos) << halved.out;
+  program("scontrol", "echo 'MaxArraySize            = 11'");
+  const ProgramResult asked =
+      sweep({"plan.toml", "-o", "asked", "--slurm", "--tasks", "40", "--json"}, conditions);
+  EXPECT_EQ(asked.exit_code, 0) << asked.err;
+  EXPECT_EQ(asked.err, "10 tasks instead of 40, because the cluster takes no more (MaxArraySize = 11)\n");
+  EXPECT_EQ(Json::parse(asked.out)["tasks"], 10);
+  // What status advises works.
+  const std::string advice = json({"status", "asked"})["advice"];
+  EXPECT_NE(advice.find("run sandstroke sweep " + (folder / "plan.toml").string() + " -o asked"),
+            std::string::npos)
+      << advice;
+}
+
+TEST_F(CliSweep, ThePointsOfSeveralKindsRunAlone) {
+  plan("tool.shape = [\"sphere\", \"plate\"]\ntool.width = [0.02, 0.03]\n",
+       "metrics = [\"work\"]\n[set]\ndisplacement.deposit = \"outward\"\n");
+  const ProgramResult result = sweep({"plan.toml", "-o", "out", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("tool.shape = sphere: tool.width is left out"), std::string::npos) << result.err;
+  EXPECT_EQ(Json::parse(result.out)["simulations"], 3) << "two points differ only in what is left out";
+  const std::string page = read_file(folder / "out/sweep.html");
+  const auto begin = page.find("type=\"application/json\" id=\"data\">") + 34;
+  const Json data = Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+  EXPECT_EQ(std::string(data["points"][0]["command"]).find("tool.width"), std::string::npos);
+  EXPECT_NE(std::string(data["points"][3]["command"]).find("tool.width=0.03"), std::string::npos);
+}
+
 TEST_F(CliSweep, StrokesInMillimetresArePointedOut) {
   plan("stroke.depth = [0.001, 4, 5]\n");
   for (const std::vector<std::string>& how : {{"--dry-run"}, std::vector<std::string>{"-o", "out"}}) {
@@ -163,6 +219,27 @@ TEST_F(CliSweep, ADryRunCountsAndLeavesNothing) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_NE(result.out.find("9 points need 3 simulations"), std::string::npos) << result.out;
   EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+/// It cannot look at all ten million points, and says the same as if it had.
+TEST_F(CliSweep, ADryRunOfTenMillionPointsCountsThemByTheirAxes) {
+  plan(
+      "relaxation.talus_angle = { from = 20, to = 40, count = 1000 }\n"
+      "force.k_s = { from = 500, to = 1500, count = 10000 }\n",
+      "max_points = 10000000\n");
+  const ProgramResult result = sweep({"plan.toml", "--dry-run"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("10000000 points need about 1000 simulations"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("\n...\n"), std::string::npos) << result.out;
+  const Json counted = json({"plan.toml", "--dry-run"});
+  EXPECT_EQ(counted["points"], 10000000);
+  EXPECT_EQ(counted["simulations"], 1000);
+  EXPECT_EQ(counted["looked_at"], 1000);
+  // The ends of a range are checked.
+  plan("relaxation.talus_angle = { from = 20, to = 100, count = 1000 }\n");
+  const ProgramResult wrong = sweep({"plan.toml", "--dry-run"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("axes.relaxation.talus_angle cannot be"), std::string::npos) << wrong.err;
 }
 
 TEST_F(CliSweep, FailingPointsAreExitCodeThreeAndStatusSaysWhy) {

@@ -127,6 +127,34 @@ TEST_F(GoldenScenes, MissingEntryAndMissingSceneFailWithoutARun) {
   EXPECT_TRUE(ran.empty());
 }
 
+TEST_F(GoldenScenes, AnUpdateRefusesWhatARunEndsWithCode3For) {
+  update_golden("dune", folders, runner());
+  const auto refusal = [&](const std::function<void(RunResult&)>& spoil) {
+    const SceneRunner doubtful = [&](const fs::path& scene, const fs::path& file) {
+      GoldenRun made = runner()(scene, file);
+      made.result.relaxation.converged = true;
+      spoil(made.result);
+      return made;
+    };
+    try {
+      update_golden("dune", folders, doubtful);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::unstable);
+      return std::string(error.what());
+    }
+    return std::string("updated");
+  };
+  EXPECT_NE(refusal([](RunResult& result) { result.relaxation.converged = false; })
+                .find("dune/scene.toml: the sand is not at rest (residual 0.00e+00), so the golden entry "
+                      "stays as it was; "
+                      "raise relaxation.max_passes"),
+            std::string::npos);
+  EXPECT_NE(
+      refusal([](RunResult& result) { result.device.swings_from = 0.5; }).find("from 0.500 s on the device"),
+      std::string::npos);
+  EXPECT_EQ(refusal([](RunResult&) {}), "updated");
+}
+
 TEST_F(GoldenScenes, ARunThatStopsIsAFailedCheck) {
   update_golden("dune", folders, runner());
   const SceneRunner stops = [](const fs::path&, const fs::path&) -> GoldenRun {

@@ -26,7 +26,8 @@ TEST(Tolerances, AnOptionCountsBeforeTheFileAndThatBeforeTheDefault) {
     {"name": "force", "value": 0.5, "unit": "N", "source": "--force-tolerance"},
     {"name": "depth", "value": 0.25, "unit": "m", "source": "--depth-tolerance"},
     {"name": "pixel", "value": 2.0, "unit": "of 255", "source": "default"},
-    {"name": "pixel_share", "value": 0.001, "unit": "", "source": "default"}])"));
+    {"name": "pixel_share", "value": 0.001, "unit": "", "source": "default"},
+    {"name": "pixel_above", "value": 0.0, "unit": "of 255", "source": "default"}])"));
   EXPECT_EQ(changed_tolerances(used),
             "height 4 m (own.toml), force 0.5 N (--force-tolerance), depth 0.25 m (--depth-tolerance)");
   EXPECT_EQ(changed_tolerances(used_tolerances({})), "");

@@ -14,6 +14,12 @@
 namespace sandstroke {
 namespace {
 
+TEST(OneLine, JoinsTheLinesOfAProgram) {
+  EXPECT_EQ(one_line("one"), "one");
+  EXPECT_EQ(one_line("one\r\n\ntwo\nthree"), "one; two; three");
+  EXPECT_EQ(one_line("\n\n"), "");
+}
+
 namespace fs = std::filesystem;
 
 TEST(ChildProcess, NoShellTakesItsWordsApart) {

@@ -66,6 +66,10 @@ TEST(CheckStroke, NamesWhatIsWrongAndWhere) {
   EXPECT_THAT(complaint(stroke), AllOf(HasSubstr("position of sample 1"), HasSubstr("1e+300")));
 
   stroke = three_samples();
+  stroke.velocity.assign(3, {0.0, 1e308, 0.0});
+  EXPECT_THAT(complaint(stroke), AllOf(HasSubstr("velocity of sample 0"), HasSubstr("1e+308")));
+
+  stroke = three_samples();
   stroke.time = {-1e300, 0.0, 1e300};
   EXPECT_THAT(complaint(stroke), AllOf(HasSubstr("time of sample 0"), HasSubstr("-1e+300")));
 

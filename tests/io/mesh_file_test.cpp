@@ -77,7 +77,10 @@ TEST_F(MeshFile, IsReadFromEachFormat) {
 
 TEST_F(MeshFile, WhatIsNoToolIsSaidInASentence) {
   const TriangleMesh box = box_mesh();
-  EXPECT_NE(complaint(binary_stl(box), "mm.stl", 1000.0).find("set tool.scale = 0.001"), std::string::npos);
+  EXPECT_NE(
+      complaint(binary_stl(box), "mm.stl", 1000.0)
+          .find("40 m large, too large for a tool; is the mesh in millimetres? Then set tool.scale = 0.001"),
+      std::string::npos);
   TriangleMesh open = box;
   open.triangles.pop_back();
   EXPECT_NE(complaint(binary_stl(open)).find("3 edges have a triangle on one side only"), std::string::npos);
@@ -108,6 +111,26 @@ TEST_F(MeshFile, InsideOutIsMended) {
   TriangleMesh box = box_mesh();
   for (auto& corners : box.triangles) std::swap(corners[0], corners[1]);
   EXPECT_GT(enclosed_volume(read(binary_stl(box))), 0.0);
+}
+
+TEST_F(MeshFile, ASurfaceThatIsThereTwiceIsReadOnce) {
+  TriangleMesh twice = box_mesh();
+  const std::size_t once = twice.triangles.size();
+  for (std::size_t i = 0; i < once; ++i) twice.triangles.push_back(twice.triangles[i]);
+  for (const auto& [file, bytes] : {std::pair{"a.stl", binary_stl(twice)}, {"b.stl", text_stl(twice)}})
+    EXPECT_EQ(read(bytes, file),
+              read(file[0] == 'a' ? binary_stl(box_mesh()) : text_stl(box_mesh()), "once.stl"));
+}
+
+TEST_F(MeshFile, SolidsThatOverlapAreRefused) {
+  TriangleMesh two = box_mesh();
+  for (const Eigen::Vector3d& vertex : box_mesh().vertices)
+    two.vertices.emplace_back(vertex + Eigen::Vector3d(0.01, 0.002, 0.001));
+  for (const auto& t : box_mesh().triangles) two.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+  EXPECT_NE(complaint(binary_stl(two)).find("tool.stl: two of its 2 bodies overlap or touch"),
+            std::string::npos);
+  for (std::size_t i = 8; i < 16; ++i) two.vertices[i].x() += 0.05;
+  EXPECT_EQ(complaint(binary_stl(two)), "");
 }
 
 TEST_F(MeshFile, TwoHundredHostileFilesAreReadOrRefused) {

@@ -1,4 +1,5 @@
 #include "io/png_file.h"
+#include "io/png_map.h"
 
 #include <gtest/gtest.h>
 #include <png.h>
@@ -15,6 +16,7 @@
 #include "core/input_file.h"
 #include "core/output_file.h"
 #include "core/version.h"
+#include "map_values.h"
 #include "test_folder.h"
 
 namespace sandstroke {
@@ -110,6 +112,8 @@ TEST_F(PngFile, ReadsGrayAndTransparentPicturesAsRgb) {
   EXPECT_EQ(gray.rgb, (std::vector<std::uint8_t>{10, 10, 10, 200, 200, 200}));
   const Image clear = read_png(raw_png("alpha.png", 1, 1, 8, PNG_COLOR_TYPE_RGB_ALPHA, {1, 2, 3, 128}));
   EXPECT_EQ(clear.rgb, (std::vector<std::uint8_t>{1, 2, 3}));
+  EXPECT_EQ(clear.alpha, std::vector<std::uint8_t>{128});
+  EXPECT_TRUE(gray.alpha.empty());
   const Image deep = read_png(raw_png("deep.png", 2, 1, 16, PNG_COLOR_TYPE_GRAY, {0xff, 0xff, 0x80, 0x80}));
   EXPECT_EQ(deep.rgb, (std::vector<std::uint8_t>{255, 255, 255, 128, 128, 128}));
 }
@@ -117,7 +121,7 @@ TEST_F(PngFile, ReadsGrayAndTransparentPicturesAsRgb) {
 TEST_F(PngFile, HeightsAreExactWithTheLowestRowFirst) {
   const fs::path path =
       raw_png("height.png", 2, 2, 16, PNG_COLOR_TYPE_GRAY, {0x00, 0x00, 0xff, 0xff, 0x12, 0x34, 0x00, 0x01});
-  const HeightGrid values = read_height_png(path);
+  const HeightGrid values = values_of(*open_png_map(path));
   ASSERT_EQ(values.rows(), 2);
   ASSERT_EQ(values.cols(), 2);
   EXPECT_EQ(values(1, 0), 0.0);
@@ -132,9 +136,9 @@ TEST_F(PngFile, HeightsAreWrittenAndReadToTheNearestGray) {
   put_text(file("h.png"), encode_height_png(heights, {-0.25, 0.75}));
   HeightGrid gray(2, 3);  // what is beyond is cut
   gray << 0.0, 65535.0, 32768.0, 12345.0, 65535.0, 0.0;
-  EXPECT_TRUE((65535.0 * read_height_png(file("h.png")) - gray).abs().maxCoeff() < 1e-9);
+  EXPECT_TRUE((65535.0 * values_of(*open_png_map(file("h.png"))) - gray).abs().maxCoeff() < 1e-9);
   put_text(file("turned.png"), encode_height_png(heights, {0.75, -0.25}));
-  EXPECT_NEAR(read_height_png(file("turned.png"))(0, 0), 1.0, 0.0);
+  EXPECT_NEAR(values_of(*open_png_map(file("turned.png")))(0, 0), 1.0, 0.0);
   const std::string bytes = read_text_file(file("h.png"));
   EXPECT_EQ(bytes.find("gAMA"), std::string::npos);  // heights are no light
   EXPECT_EQ(bytes.find("sRGB"), std::string::npos);
@@ -173,11 +177,11 @@ TEST_F(PngFile, HeightsSayTheirRangeToTheBit) {
 
 TEST_F(PngFile, HeightsRefuseOtherKindsOfPng) {
   const fs::path colour = raw_png("rgb.png", 1, 1, 16, PNG_COLOR_TYPE_RGB, {0, 0, 0, 0, 0, 0});
-  const std::string colour_refusal = refusal([&] { read_height_png(colour); });
+  const std::string colour_refusal = refusal([&] { values_of(*open_png_map(colour)); });
   EXPECT_NE(colour_refusal.find("rgb.png"), std::string::npos);
   EXPECT_NE(colour_refusal.find("16-bit grayscale"), std::string::npos);
   const fs::path shallow = raw_png("eight.png", 1, 1, 8, PNG_COLOR_TYPE_GRAY, {0});
-  EXPECT_NE(refusal([&] { read_height_png(shallow); }).find("8-bit grayscale"), std::string::npos);
+  EXPECT_NE(refusal([&] { values_of(*open_png_map(shallow)); }).find("8-bit grayscale"), std::string::npos);
 }
 
 TEST_F(PngFile, RefusesWhatIsNoPng) {

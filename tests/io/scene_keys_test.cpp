@@ -70,6 +70,8 @@ const std::vector<KeyCase> cases = {
     {"bed.surface.file=z.png", [](S s) { return s.bed.surface.file == "z.png"; }, read_from},
     {"bed.surface.low=-0.41", [](S s) { return s.bed.surface.low == -0.41; }, read_from},
     {"bed.surface.high=0.42", [](S s) { return s.bed.surface.high == 0.42; }, read_from},
+    {"bed.surface.scale=0.43", [](S s) { return s.bed.surface.scale == 0.43; }, read_from},
+    {"bed.surface.nodata=0.0", [](S s) { return s.bed.surface.nodata == 0.0; }, read_from},
     {"tool.shape=rake", [](S s) { return s.tool.shape == ToolShape::rake; }, outward},
     {"tool.height=0.061", [](S s) { return s.tool.height == 0.061; }, shape("cylinder")},
     {"tool.height=0.062", [](S s) { return s.tool.height == 0.062; }, shape("plate")},

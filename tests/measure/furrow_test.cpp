@@ -339,6 +339,10 @@ TEST(Furrow, WarnsOfADragThatLeavesLessThanHalfAndSaysWhatHelps) {
   EXPECT_NE(furrow_warning(paper, less).find("model.preset = \"accurate\""), std::string::npos);
   EXPECT_NE(furrow_warning(paper, less).find("1.9 mm deep; the stroke asked for 4 mm"), std::string::npos);
   EXPECT_NE(furrow_warning(accurate, less).find("tool.radius"), std::string::npos);
+  Scene plate = accurate;
+  plate.tool.shape = ToolShape::plate;
+  const FurrowMeasures of_plate{.depth = 0.0019, .asked_depth = 0.004, .length = 1.0};
+  EXPECT_NE(furrow_warning(plate, of_plate).find("a larger tool.thickness or"), std::string::npos);
   Scene dynamic = paper;
   dynamic.device.model = DeviceModel::dynamic;
   EXPECT_EQ(furrow_warning(dynamic, less), "");

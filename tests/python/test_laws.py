@@ -130,3 +130,26 @@ def test_stress_finds_no_surprise_in_a_sound_law_and_one_in_another(tmp_path):
     assert any(case["surprise"] for case in wrong["cases"])
     with pytest.raises(sandstroke.InputError, match="four at most"):
         sandstroke.stress({"force": spring}, parameters=range(5))
+
+
+@pytest.mark.parametrize("spoil", [
+    lambda heights: setattr(heights, "shape", (1, heights.size)),
+    lambda heights: setattr(heights, "shape", (heights.size,)),
+    lambda heights: setattr(heights, "dtype", np.int64),
+    lambda heights: heights.setflags(write=False),
+], ids=["a row", "flat", "integers", "read only"])
+def test_a_law_may_reshape_and_keep_its_arrays(small, line, spoil):
+    kept = []
+
+    def law(heights, walls, **numbers):
+        kept.append(heights)
+        spoil(heights)
+        walls.shape = (walls.size,)
+
+    def displace(heights, underside, motion, **numbers):
+        kept.append(heights)
+        spoil(heights)
+
+    run = sandstroke.run(small, line[:20], laws={"relaxation": law, "displacement": displace})
+    assert np.array_equal(run.final, run.initial)
+    assert len(kept) > 10 and all(np.isfinite(np.asarray(one, dtype=float)).all() for one in kept)

@@ -128,6 +128,25 @@ def test_a_surface_of_ones_own(small, line):
             sandstroke.run(small, line, surface=surface)
 
 
+def test_what_is_under_a_mask_is_neither_sand_nor_stroke(small, line):
+    surface = np.ma.array(np.zeros_like(sandstroke.run(small, line).final))
+    assert np.array_equal(sandstroke.run(small, line, surface=surface).initial, surface.data)  # nothing is masked
+    surface[:5, :4] = -9999.0
+    surface[:5, :4] = np.ma.masked
+    for start in (sandstroke.run, lambda scene, _, surface: sandstroke.Simulation(scene, surface=surface)):
+        with pytest.raises(sandstroke.InputError, match=f"20 of the bed's {surface.size} cells have no height.*filled"):
+            start(small, line, surface=surface)
+        with pytest.raises(sandstroke.InputError, match="heights from -9999 to 0 m"):
+            start(small, line, surface=surface.data)
+    assert sandstroke.run(small, line, surface=surface.filled(0.0)).initial.min() == 0.0
+    masked = np.ma.array(line)
+    masked[3, 1:] = np.ma.masked
+    for stroke in (masked, {"time": masked[:, 0], "position": masked[:, 1:]}):
+        with pytest.raises(sandstroke.InputError, match="position has 3 masked numbers"):
+            sandstroke.run(small, stroke)
+
+
+
 def test_samples_far_apart_are_joined_where_that_is_asked(small):
     ends = {"time": [0.0, 0.4], "position": [[-0.05, 0.0, -0.003], [0.05, 0.0, -0.003]]}
     assert sandstroke.run(small, {**ends, "gap_threshold": 1.0}).summary["contact_ticks"] > 300
@@ -187,12 +206,26 @@ def test_xarray_is_what_it_makes_of_the_file(tmp_path):
     ({"bed.cells": [100, 61]}, "bed.cells"),
     ({"tool.radius": float("nan")}, "tool.radius"),
     ({"tool.radius": "wide"}, "tool.radius"),
-    ({"tool.radius": None}, "not a value for a scene"),
+    ({"tool.radius": {1, 2}}, "not a value for a scene"),
+    ({"tool.radus": None}, "no such key"),
+    ({"force.law": "rft", "force.k_s": 3.0}, "applies only where force.law is paper"),
 ])
 def test_wrong_settings_are_told(small, line, change, sentence):
     with pytest.raises(sandstroke.InputError, match=sentence) as told:
         sandstroke.run(small, line, settings=change)
     assert isinstance(told.value, ValueError) and "--set" not in str(told.value)
+
+
+def test_settings_replace_what_a_scene_sets_for_another_choice(tmp_path):
+    scene = {"bed": {"size": [0.3, 0.18], "cells": [100, 60]}, "force": {"k_s": 500.0}}
+    with pytest.warns(UserWarning, match="force.k_s is left out, because it applies only where force.law is paper"):
+        assert sandstroke.Scene(scene, {"force.law": "rft"})["force.law"] == "rft"
+    (tmp_path / "scene.toml").write_text("[force]\nk_s = 500\n")
+    with pytest.warns(UserWarning, match="force.k_s is left out"):
+        sandstroke.Scene(tmp_path / "scene.toml", {"force.law": "archimedes"})
+    assert sandstroke.Scene(scene, {"force.k_s": None})["force.k_s"] == 1000.0
+    with pytest.warns(UserWarning, match="force.k_s"):
+        sandstroke.Scene(sandstroke.Scene(scene), {"force.law": "rft"})
 
 
 @pytest.mark.parametrize("stroke, sentence", [
@@ -243,6 +276,14 @@ def test_what_the_command_warns_of_is_a_python_warning(small, line):
         assert sandstroke.run(small, high).summary["contact_ticks"] == 0
     with pytest.warns(UserWarning, match="not at rest"):
         assert not sandstroke.run(small, line, settings={"relaxation.max_passes": 3}).summary["converged"]
+
+
+def test_warnings_of_a_result_have_a_code(small, line):
+    with pytest.warns(sandstroke.ResultWarning) as told:
+        summary = sandstroke.run(small, line, settings={"relaxation.max_passes": 3}).summary
+    assert {"not-at-rest"} <= {warning.message.code for warning in told}
+    assert [w["code"] for w in summary["warnings"]] == [w.message.code for w in told]
+    assert summary["warnings"][-1]["section"] == "relaxation"
 
 
 def test_other_threads_run_meanwhile_and_runs_in_threads_are_the_same(small, line):
@@ -339,3 +380,27 @@ def test_what_the_page_of_the_module_shows_works(tmp_path):
     done = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "furrow.png").stat().st_size > 1000
+
+
+@pytest.mark.parametrize("down", [True, 1, 0.5, 256, -1, np.True_])
+@pytest.mark.parametrize("up", [False, 0, 0.0])
+def test_pen_down_is_any_truth(small, line, down, up):
+    states = [up] * 100 + [down] * (len(line) - 100)
+    stroke = {"time": line[:, 0], "position": line[:, 1:], "pen_down": states}
+    plain = {**stroke, "pen_down": np.array([bool(state) for state in states])}
+    assert np.array_equal(sandstroke.run(small, stroke).final, sandstroke.run(small, plain).final)
+
+
+@pytest.mark.parametrize("state", [np.nan, "up"])
+def test_pen_down_that_is_no_truth_is_told(small, line, state):
+    stroke = {"time": line[:, 0], "position": line[:, 1:], "pen_down": [state] * len(line)}
+    with pytest.raises(sandstroke.InputError, match="pen_down must be true or false"):
+        sandstroke.run(small, stroke)
+
+
+def test_a_run_from_a_file_has_the_summary_that_it_tells(tmp_path, small, line):
+    made = sandstroke.run(small, line, output=tmp_path / "run.h5").summary
+    read = sandstroke.read(tmp_path / "run.h5").summary
+    assert {"max_force", "max_depth", "contact_ticks", "moved_volume", "passes"} <= read.keys() <= made.keys()
+    for name, value in read.items():
+        assert value == pytest.approx(made[name], rel=1e-9, abs=1e-15) if isinstance(value, float) else value == made[name], name

@@ -1,6 +1,9 @@
 """Ticks that Python drives are those of a run."""
 import gc
 import resource
+import subprocess
+import sys
+import threading
 import time
 
 import numpy as np
@@ -92,3 +95,83 @@ def test_many_simulations_leak_nothing(small):
 
     before = make(100)
     assert make(500) - before < 2000
+
+
+@pytest.mark.parametrize("use", [
+    lambda sim, k: sim.tick((0.02 * np.sin(0.01 * k), 0.01, -0.003)),
+    lambda sim, k: sim.relax(),
+    lambda sim, k: sim.lift(),
+    lambda sim, k: sim.heights,
+    lambda sim, k: (sim.volume, sim.time, sim.height_at(0.0, 0.0), sim.x, sim.y),
+], ids=["tick", "relax", "lift", "heights", "numbers"])
+def test_two_threads_take_turns(small, use):
+    sim = sandstroke.Simulation(small)
+    stop, failures = threading.Event(), []
+
+    def other():
+        try:
+            k = 0
+            while not stop.is_set():
+                k += 1
+                use(sim, k)
+        except BaseException as failure:
+            failures.append(failure)
+
+    thread = threading.Thread(target=other)
+    thread.start()
+    for k in range(1000):
+        sim.tick((0.04 * np.sin(0.01 * k), 0.0, -0.003))
+    stop.set()
+    thread.join()
+    assert not failures and abs(sim.volume) < 1e-12
+    assert np.isfinite(sim.heights).all()
+
+
+def test_a_law_cannot_use_the_simulation_that_called_it(small):
+    def law(depth, motion, tip, **numbers):
+        sims[0].tick((0.0, 0.0, 0.0))
+
+    sims = [sandstroke.Simulation(small, laws={"force": law})]
+    with pytest.raises(sandstroke.InputError, match="uses the simulation that has called it"):
+        sims[0].tick((0.0, 0.0, -0.003))
+
+
+@pytest.mark.parametrize("velocity", [1e51, 1e154, 1e308, -1e308])
+def test_velocities_have_the_range_of_strokes(small, line, velocity):
+    with pytest.raises(sandstroke.InputError, match="beyond 1e.50"):
+        sandstroke.Simulation(small).tick((0.0, 0.0, -0.003), (velocity, 0.0, 0.0))
+    stroke = {"time": line[:, 0], "position": line[:, 1:], "velocity": np.full((len(line), 3), velocity)}
+    with pytest.raises(sandstroke.InputError, match="velocity of sample 0"):
+        sandstroke.run(small, stroke)
+    fast = sandstroke.Simulation(small).tick((0.0, 0.0, -0.003), (1e49, 0.0, 0.0))
+    assert np.linalg.norm(fast.force) == pytest.approx(12.0)
+
+
+IN_A_THREAD = """
+import sys, threading, time
+import numpy as np, sandstroke
+scene = {{"bed": {{"size": [0.3, 0.3], "cells": [300, 300]}}}}
+surface = np.random.default_rng(1).normal(0.0, 0.1, (300, 300))
+t = np.linspace(0.0, 30.0, 30001)
+stroke = np.column_stack([t, 0.002 * t - 0.03, 0.0 * t, 0.0 * t - 0.004])
+busy = threading.Event()
+def force(depth, motion, tip, **numbers):
+    busy.set()
+    return 0.0, 0.0, 1.0
+def work():
+    {work}
+threading.Thread(target=work, daemon=True).start()
+busy.wait(60)
+time.sleep(0.1)
+"""
+
+
+@pytest.mark.parametrize("work", [
+    "busy.set(); sandstroke.Simulation(scene, surface=surface).relax()",
+    "sandstroke.run(scene, stroke, laws={'force': force})",
+    "busy.set(); sandstroke.run(scene, stroke, surface=surface)",
+    "sim = sandstroke.Simulation(scene); busy.set()\n    while True: sim.tick((0.0, 0.0, -0.003))",
+])
+def test_the_interpreter_ends_while_a_daemon_thread_works(work):
+    ended = subprocess.run([sys.executable, "-c", IN_A_THREAD.format(work=work)], capture_output=True, text=True)
+    assert (ended.returncode, ended.stderr) == (0, ""), ended

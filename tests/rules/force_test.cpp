@@ -115,6 +115,10 @@ TEST(SandForce, IsDefinedAtAnyDepthOnALimitedDevice) {
     EXPECT_TRUE(f.saturated);
     EXPECT_FALSE(f.drag.hasNaN());
   }
+  for (const double speed : {1e100, 1e154, 1e300, 1e308}) {
+    const SandForce fast = sand_force(0.004, {speed, 0.0, 0.0}, 12.0, paper);
+    EXPECT_NEAR((fast.total - Eigen::Vector3d(-12.0, 0.0, 0.0)).norm(), 0.0, 1e-12) << speed;
+  }
   const SandForce free = sand_force(1e4, velocity, 0.0, paper);
   EXPECT_EQ(free.total.z(), std::numeric_limits<double>::infinity());
   EXPECT_FALSE(free.total.hasNaN());

@@ -195,9 +195,14 @@ TEST_F(RunFileTest, ASurfaceCanComeFromARunFile) {
   SceneFile second = scene({"bed.surface={ kind = 'file', file = 'first.h5' }"});
   run(second, "second.h5");
   EXPECT_TRUE((RunFile(folder_ / "second.h5").initial() == RunFile(folder_ / "first.h5").final()).all());
-  EXPECT_THROW(
-      run(scene({"bed.surface={ kind = 'file', file = 'first.h5' }", "bed.cells=[300, 200]"}), "third.h5"),
-      Error);
+  // On other cells the sand stays where it is: two by two cells have the height of one.
+  run(scene({"bed.surface={ kind = 'file', file = 'first.h5' }", "bed.cells=[300, 200]"}), "third.h5");
+  const RunFile fine(folder_ / "third.h5"), own(folder_ / "first.h5");
+  EXPECT_NEAR(fine.initial_bed().volume(), own.final_bed().volume(), 1e-18);
+  const HeightGrid on_fine = fine.initial(), on_own = own.final();
+  for (int row = 0; row < 200; ++row)
+    for (int col = 0; col < 300; ++col)
+      ASSERT_EQ(on_fine(row, col), on_own(row / 2, col / 2)) << row << ", " << col;
 }
 
 TEST_F(RunFileTest, RefusesOtherFiles) {

@@ -76,6 +76,22 @@ TEST(CellMeans, CellsThatAreCutCountByTheirFraction) {
   EXPECT_NEAR(means(0, 1), (0.5 * 2.0 + 4.0) / 1.5, 1e-15);
 }
 
+TEST(CellCovers, EachCellOfTheOtherGridIsCoveredOnce) {
+  for (const auto& [here, there] : {std::pair{3, 7}, {7, 3}, {5, 5}, {1, 65536}, {65536, 65535}, {1000, 1}}) {
+    std::vector<double> covered(static_cast<std::size_t>(there));
+    for (const CellCover& cover : cell_covers(here, there)) {
+      double whole = 0.0;
+      for (std::size_t k = 0; k < cover.fraction.size(); ++k) {
+        EXPECT_GT(cover.fraction[k], 0.0);
+        whole += cover.fraction[k];
+        covered[static_cast<std::size_t>(cover.begin) + k] += cover.fraction[k] * there / here;
+      }
+      ASSERT_NEAR(whole, 1.0, 1e-12) << here << ", " << there;
+    }
+    for (const double part : covered) ASSERT_NEAR(part, 1.0, 1e-12) << here << ", " << there;
+  }
+}
+
 TEST(Coarsened, IsTheBedItselfAtNoCostByAFactorOfOne) {
   HeightField bed(100, 200, 0.01, std::make_shared<Ramp>());
   EXPECT_EQ(coarsened(bed, 1).allocated_tiles(), 0);

@@ -112,9 +112,9 @@ Scene stroked_scene(double width, int cols, double depth, int rows) {
   return scene;
 }
 
-TEST(CheckScene, AToolMustCoverHalfACell) {
+TEST(CheckScene, ASphereMustBeTwoCellsWide) {
   Scene scene = stroked_scene(0.3, 30, 0.2, 20);  // cells of 10 mm
-  for (const auto& [radius, taken] : {std::pair{0.00475, false}, {0.00525, true}}) {
+  for (const auto& [radius, taken] : {std::pair{0.0095, false}, {0.0105, true}}) {
     scene.tool.radius = radius;
     EXPECT_EQ(is_taken(scene), taken) << radius;
   }

@@ -145,10 +145,10 @@ TEST_F(ASweep, AFailingPointIsRecordedAndDoesNotStopTheRest) {
 }
 
 TEST_F(ASweep, SettingsThatDoNotGoTogetherAreRefusedPoints) {
-  Sweep s = sweep("", "bed.cells = [[160, 160], [80, 80]]\ntool.radius = [0.01, 0.002, 0.0007]\n");
+  Sweep s = sweep("", "bed.cells = [[160, 160], [80, 80]]\ntool.radius = [0.01, 0.003, 0.0015]\n");
   const SweepFolder out = folder(s, "out");
   const SweepCounters counters = s.run(out, {});
-  EXPECT_EQ(counters.failed(), 1u);  // less than half a cell, of the coarse bed only
+  EXPECT_EQ(counters.failed(), 1u);  // less than two cells wide, in the coarse bed only
   EXPECT_EQ(counters.simulations, 5u);
   EXPECT_EQ(s.simulations(), 5u);
   EXPECT_EQ(out.read(5)->verdict, PointVerdict::refused);
@@ -261,9 +261,9 @@ TEST_F(ASweep, MayLieInAFolderWhoseNameIsNoUtf8) {
 }
 
 TEST_F(ASweep, AnEstimateMeasuresAPointThatCanBeRun) {
-  // The one in the middle has a tool of less than half a cell.
+  // The one in the middle has a tool that is less than two cells wide.
   Sweep s = sweep("keep = [\"surface\"]\n",
-                  "tool.radius = [0.01, 0.0007, 0.002]\nbed.cells = [[160, 160], [80, 80]]\n");
+                  "tool.radius = [0.01, 0.0015, 0.003]\nbed.cells = [[160, 160], [80, 80]]\n");
   ASSERT_EQ(s.refused().size(), 1u);
   EXPECT_EQ(s.refused().begin()->first, 3u);
   EXPECT_GT(s.estimate().bytes, 6 * 80 * 80 * sizeof(double));

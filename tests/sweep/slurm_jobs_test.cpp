@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include <fstream>
+#include <limits>
 
 #include "core/error.h"
 #include "core/input_file.h"
@@ -128,6 +129,40 @@ TEST_F(SlurmJobsTest, SlurmsOwnSentenceSaysWhyItRefuses) {
   slurm_.program("sbatch", "echo 'sbatch: error: invalid partition specified: sand' >&2; exit 1");
   EXPECT_NE(sentence_of([&] { submit(); }).find("invalid partition specified: sand"), std::string::npos);
   EXPECT_FALSE(read_slurm_jobs(folder_ / "out"));
+}
+
+TEST_F(SlurmJobsTest, SeveralLinesOfSlurmsAreOneSentence) {
+  slurm_.program("sbatch",
+                 "printf 'sbatch: error: AssocMaxSubmitJobLimit\nsbatch: error: Batch job submission "
+                 "failed: Job violates accounting/QOS policy (job submit limit)\n' >&2; exit 1");
+  const std::string sentence = sentence_of([&] { submit(); });
+  EXPECT_NE(
+      sentence.find("sbatch: error: AssocMaxSubmitJobLimit; sbatch: error: Batch job submission failed: Job "
+                    "violates accounting/QOS policy (job submit limit)"),
+      std::string::npos)
+      << sentence;
+  EXPECT_EQ(sentence.find('\n'), std::string::npos);
+  EXPECT_THROW(submit(), TooManyTasks);
+  slurm_.program("sbatch",
+                 "echo 'sbatch: error: Batch job submission failed: Invalid job array specification' "
+                 ">&2; exit 1");
+  EXPECT_THROW(submit(), TooManyTasks);
+}
+
+TEST_F(SlurmJobsTest, TheClustersLimitsAreAskedFor) {
+  EXPECT_EQ(ask_slurm_limits().most_tasks(), std::numeric_limits<int>::max());
+  slurm_.program("scontrol", "echo 'MaxArrayTasks = 7'; echo 'MaxArraySize            = 101'");
+  EXPECT_EQ(ask_slurm_limits().most_tasks(), 100);
+  EXPECT_EQ(ask_slurm_limits().text(), "MaxArraySize = 101");
+  slurm_.program("sacctmgr", "echo; echo 200; echo 50");
+  slurm_.queue("7_1\n7_2\n");
+  EXPECT_EQ(ask_slurm_limits().most_tasks(), 47) << "two are queued, and one collects";
+  slurm_.program("sacctmgr", "echo 1");
+  EXPECT_EQ(ask_slurm_limits().most_tasks(), 1);
+  slurm_.program("scontrol",
+                 "echo 'slurm_load_ctl_conf error: Unable to contact slurm controller' >&2; exit 1");
+  slurm_.program("sacctmgr", "exit 1");
+  EXPECT_FALSE(ask_slurm_limits().array_size || ask_slurm_limits().submit_jobs);
 }
 
 TEST_F(SlurmJobsTest, AreQueuedEvenIfNothingWillCollectThem) {

@@ -9,6 +9,13 @@
 namespace sandstroke {
 namespace {
 
+TEST(SpreadIndices, AreAllOrSomeWithBothEnds) {
+  EXPECT_EQ(spread_indices(3, 5), (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(spread_indices(5, 5), (std::vector<std::size_t>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(spread_indices(100, 4), (std::vector<std::size_t>{0, 33, 66, 99}));
+  EXPECT_EQ(spread_indices(10'000'000, 2), (std::vector<std::size_t>{0, 9'999'999}));
+}
+
 SweepAxis axis(const std::string& key, std::vector<std::string> values) {
   return {key, "", false, std::move(values)};
 }

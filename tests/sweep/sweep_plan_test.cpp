@@ -209,6 +209,40 @@ TEST_F(APlan, IsRefusedInOneSentenceThatSaysWhere) {
   }
 }
 
+TEST_F(APlan, OverKindsNamesPerKindWhatIsLeftOut) {
+  put_text(folder / "scenes/scene.toml",
+           "[bed]\nsize = [0.3, 0.3]\ncells = [60, 60]\n[tool]\nradius = 0.02\n[force]\nk_s = 500\n"
+           "[displacement]\ndeposit = 'outward'\n[stroke]\nfile = \"line.toml\"\n");
+  const SweepPlan plan = load(std::string(begin_plan) +
+                              "[set]\ntool.width = 0.05\n[axes]\ntool.shape = [\"sphere\", \"plate\"]\n"
+                              "force.law = [\"paper\", \"rft\"]\n");
+  EXPECT_EQ(
+      plan.notes,
+      (std::vector<std::string>{
+          "tool.shape = sphere: tool.width is left out, because it applies only where tool.shape is plate",
+          "tool.shape = plate: tool.radius is left out, because it applies only where tool.shape is "
+          "sphere or cylinder or cone or rake",
+          "force.law = rft: force.k_s is left out, because it applies only where force.law is paper"}));
+  EXPECT_EQ(plan.scene_of(0).tool.radius, 0.02);
+  EXPECT_EQ(plan.scene_of(3).tool.width, 0.05);
+  EXPECT_EQ(plan.scene_of(3).force.law, ForceLaw::rft);
+}
+
+TEST_F(APlan, ChecksTheValuesOfAnAxisThatAppliesOnlyWithAnotherKind) {
+  const std::string shapes = std::string(begin_plan) +
+                             "[set]\ndisplacement.deposit = \"outward\"\n[axes]\n"
+                             "tool.shape = [\"sphere\", \"plate\"]\n";
+  EXPECT_EQ(load(shapes + "tool.width = [0.02, 0.05]\n").design.axes[1].unit, "m");
+  EXPECT_NE(refusal(shapes + "tool.width = [0.02, -0.05]\n").find("axes.tool.width cannot be -0.05"),
+            std::string::npos);
+  EXPECT_NE(
+      refusal(shapes + "tool.teeth = [2, 3]\n").find("tool.teeth applies only where tool.shape is rake"),
+      std::string::npos);
+  EXPECT_NE(refusal(std::string(begin_plan) + "[set]\ntool.width = 0.02\n[axes]\nforce.k_s = [1]\n")
+                .find("set.tool.width cannot be 0.02: tool.width applies only where tool.shape is plate"),
+            std::string::npos);
+}
+
 /// A plan of a few kilobytes could ask for 1e10 numbers.
 TEST_F(APlan, MayHaveAsManyPointsAsMaxPointsSays) {
   EXPECT_EQ(

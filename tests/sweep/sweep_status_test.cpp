@@ -35,6 +35,20 @@ class SweepStatusTest : public testing::Test {
   const SweepFolder folder = SweepFolder::make(test_folder / "sweep", manifest());
 };
 
+TEST_F(SweepStatusTest, AdvisesTheWholeCommandWhereTheFolderKnowsItsPlan) {
+  SweepManifest m = manifest();
+  m.plan = "/here/my plan.toml";
+  const SweepFolder planned = SweepFolder::make(test_folder / "planned", m);
+  const std::string command = "run sandstroke sweep '/here/my plan.toml' -o " + planned.path().string();
+  EXPECT_EQ(sweep_status(planned, std::nullopt, {}).advice(), "8 points are missing: " + command);
+  EXPECT_EQ(
+      sweep_status(planned, SlurmJobs{12, 13, 1, {{1, {0, 1}}}}, {std::vector<QueuedTask>{}, ""}).advice(),
+      "1 task is gone and left 2 points: " + command + " --slurm");
+  EXPECT_EQ(SweepFolder::open(planned.path()).manifest().plan, m.plan);
+  m.plan = "/moved/plan.toml";
+  EXPECT_NO_THROW(SweepFolder::make(planned.path(), m)) << "a moved plan is the same sweep";
+}
+
 TEST_F(SweepStatusTest, CountsWhatTheFolderHolds) {
   done({0, 3});
   done({1}, PointVerdict::not_at_rest);
@@ -57,12 +71,14 @@ TEST_F(SweepStatusTest, CountsWhatTheFolderHolds) {
 TEST_F(SweepStatusTest, SaysWhenAllIsDone) {
   done({0, 1, 2, 3, 4, 5, 6});
   done({7}, PointVerdict::not_at_rest);
-  EXPECT_EQ(local().advice(), "all points are done: collect them with sandstroke sweep collect");
+  EXPECT_EQ(local().advice(),
+            "all points are done: collect them with sandstroke sweep collect " + folder.path().string());
   std::ofstream(folder.path() / "sweep.h5") << "collected";
   EXPECT_EQ(local().advice(), "all points are done: sweep.html shows them");
   const auto collected = std::filesystem::last_write_time(folder.path() / "sweep.h5");
   std::filesystem::last_write_time(folder.point_file(3), collected + std::chrono::seconds(1));
-  EXPECT_EQ(local().advice(), "all points are done: collect them with sandstroke sweep collect");
+  EXPECT_EQ(local().advice(),
+            "all points are done: collect them with sandstroke sweep collect " + folder.path().string());
 }
 
 TEST_F(SweepStatusTest, PointsThatFailedAreDone) {

@@ -12,11 +12,11 @@ from ._arguments import Laws, Scene, SceneLike, StrokeLike
 from ._judging import bench, stress
 from ._picture import render
 from ._run import Comparison, Run, compare, read, run
-from ._sandstroke import Error, FileError, InputError, Tick, UnstableError
+from ._sandstroke import Error, FileError, InputError, ResultWarning, Tick, UnstableError
 from ._sandstroke import version as __version__
 from ._simulation import Simulation
 
 __all__ = [
-    "Comparison", "Error", "FileError", "InputError", "Laws", "Run", "Scene", "SceneLike", "Simulation", "StrokeLike", "Tick",
+    "Comparison", "Error", "FileError", "InputError", "Laws", "ResultWarning", "Run", "Scene", "SceneLike", "Simulation", "StrokeLike", "Tick",
     "UnstableError", "bench", "compare", "read", "render", "run", "stress",
 ]

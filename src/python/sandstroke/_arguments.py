@@ -47,24 +47,28 @@ def _flat(settings: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
 
 
 def _overrides(*settings: Mapping[str, Any] | None) -> list[str]:
-    return [f"{key}={_toml(value)}" for some in settings if some for key, value in _flat(some).items()]
+    flat = [item for some in settings if some for item in _flat(some).items()]
+    unset = [f"!{key}" for key, value in flat if value is None]
+    return unset + [f"{key}={_toml(value)}" for key, value in flat if value is not None]
 
 
 class Scene:
     """All settings of a run: a TOML file or text of several lines, or a mapping such as {"bed": {"cells": [300, 200]}}.
 
-    settings: other values for keys, as {"relaxation.talus_angle": 34}. `sandstroke help scene` lists the keys.
+    settings: other values for keys, as {"relaxation.talus_angle": 34}; None takes a key or a section out. A setting that
+    makes another choice, as {"tool.shape": "plate"}, leaves out what the scene sets for the old one, and a UserWarning
+    says so. `sandstroke help scene` lists the keys.
     Files in a mapping or text are relative to the current folder. scene["relaxation.talus_angle"] is a value, in the
     text's own types.
     """
 
     def __init__(self, scene: SceneLike = {}, settings: Mapping[str, Any] | None = None) -> None:
         if isinstance(scene, Scene):
-            self._here = _core._scene_of_text(scene.text, scene._here.folder, _overrides(settings))
+            self._here = _core._scene_of_text(scene.text, scene._here.folder, [], _overrides(settings))
         elif isinstance(scene, Mapping):
-            self._here = _core._scene_of_text("", os.getcwd(), _overrides(_flat(scene), settings))
+            self._here = _core._scene_of_text("", os.getcwd(), _overrides(scene), _overrides(settings))
         elif isinstance(scene, str) and "\n" in scene:
-            self._here = _core._scene_of_text(scene, os.getcwd(), _overrides(settings))
+            self._here = _core._scene_of_text(scene, os.getcwd(), [], _overrides(settings))
         elif isinstance(scene, (str, os.PathLike)):
             self._here = _core._scene_of_file(os.fspath(scene), _overrides(settings))
         else:
@@ -103,7 +107,7 @@ class Scene:
 
 
 def _scene_again(text: str, folder: str) -> Scene:
-    return Scene._of(_core._scene_of_text(text, folder, []))
+    return Scene._of(_core._scene_of_text(text, folder, [], []))
 
 
 Laws = Mapping[str, Callable[..., Any]]
@@ -124,19 +128,27 @@ A run fails if a law makes or loses sand, or returns NaN or infinity.
 IN_ARRAYS = "<arrays>"  # the file name in a scene of a stroke that is in no file
 
 
+def pen_states(pen_down: Any) -> np.ndarray:
+    """1 where a value counts as true, as in an `if`, else 0."""
+    states = np.asarray(pen_down)
+    if states.dtype.kind not in "biufO" or (states.dtype.kind == "f" and np.isnan(states).any()):
+        raise _core.InputError("stroke: pen_down must be true or false, or numbers; 0 is false")
+    return states.astype(bool).astype(np.uint8)
+
+
 def stroke_columns(stroke: Any) -> dict[str, Any]:
     """The columns of a stroke: an array of time [s], x, y, z [m], a table with these names, or a mapping of arrays."""
     if isinstance(stroke, Mapping):
         columns = dict(stroke)
         if "pen_down" in columns:
-            columns["contact"] = np.asarray(columns.pop("pen_down"), dtype=np.uint8)
+            columns["contact"] = pen_states(columns.pop("pen_down"))
         return columns
     if hasattr(stroke, "columns"):  # a DataFrame; the order of its columns does not matter
         missing = [name for name in ("time", "x", "y", "z") if name not in stroke.columns]
         if missing:
             raise _core.InputError(f"stroke: a table needs the columns time, x, y and z; {', '.join(missing)} is missing")
         return {"time": np.asarray(stroke["time"]), "position": np.asarray(stroke[["x", "y", "z"]])}
-    table = np.asarray(stroke)
+    table = np.asanyarray(stroke)  # keeps a mask, which is refused
     if table.dtype.kind not in "fiu" or table.ndim != 2 or table.shape[1] != 4:
         raise _core.InputError(
             f"stroke: an array has the columns time, x, y and z; this one has the shape {table.shape}; for more "

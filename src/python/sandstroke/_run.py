@@ -73,7 +73,7 @@ class Run:
 
     @cached_property
     def summary(self) -> dict[str, Any]:
-        """The output of `sandstroke run --json`. Empty for a run read from a file."""
+        """The output of `sandstroke run --json`. Of a run that was read from a file: what the file tells of it."""
         return json.loads(self._kept.summary) or {}
 
     @property
@@ -138,7 +138,8 @@ def run(scene: SceneLike, stroke: StrokeLike | None = None, *, settings: Mapping
     the usual spacing if that is more, are not joined: the tool is lifted between them ("gap_threshold" [s] in a mapping
     changes that). settings: other values for keys of the
     scene, as {"relaxation.talus_angle": 34}. surface: heights to start from [m], (rows, columns) of the bed, instead of
-    the scene's. output: also write the run file (.h5). threads: 0 is all cores; the result does not depend on it.
+    the scene's; the first row has the smallest y, and no cell may be masked or nan. output: also write the run file
+    (.h5). threads: 0 is all cores; the result does not depend on it.
 
     laws: functions of your own, slow, for trying out: "relaxation", "displacement", "force".
       relaxation(heights, walls, **numbers) changes heights [m], (row along y, column along x), in place, except cells

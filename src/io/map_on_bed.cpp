@@ -1,0 +1,241 @@
+#include "io/map_on_bed.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "core/error.h"
+#include "io/map_means.h"
+
+namespace sandstroke {
+namespace {
+
+/// True for a number that programs of maps write for no data: none is the height of a bed.
+bool is_usual_no_data(double value) {
+  constexpr std::array usual = {-9999.0, -99999.0, -32767.0, -32768.0};
+  constexpr double most = 1e30;  // most others are near the largest float
+  return std::find(usual.begin(), usual.end(), value) != usual.end() || std::abs(value) > most;
+}
+
+constexpr double no_height = std::numeric_limits<double>::quiet_NaN();
+
+/// The lowest or the highest value of a map, and how many cells have it.
+struct MapEnd {
+  double value;
+  std::int64_t cells = 0;
+
+  void meet(double other, bool beyond) {
+    if (beyond) *this = {other, 0};
+    if (other == value) ++cells;
+  }
+};
+
+/// The values of a map, looked at one by one.
+struct MapValues {
+  MapEnd lowest{std::numeric_limits<double>::infinity()}, highest{-lowest.value};
+  std::int64_t missing = 0;
+
+  /// Returns whether the line has cells without data.
+  bool look_at(const std::vector<double>& line) {
+    const std::int64_t before = missing;
+    for (const double value : line) {
+      lowest.meet(value, value < lowest.value);
+      highest.meet(value, value > highest.value);
+      missing += std::isnan(value);
+    }
+    return missing > before;
+  }
+
+  /// Error: input, if some are no heights.
+  void check(const std::string& name) const {
+    for (const MapEnd& end : {lowest, highest}) {
+      if (end.cells == 0) continue;  // no cell has data
+      if (std::isinf(end.value))
+        throw_input_error("{}: {} cells have heights that are not finite numbers; correct them", name,
+                          end.cells);
+      if (is_usual_no_data(end.value))
+        throw_input_error(
+            "{}: {} cells have the height {:g} m, which usually means no data, but the file does not say so; "
+            "mark it as no data (gdal_translate -a_nodata {:g}; in NumPy: nan)",
+            name, end.cells, end.value, end.value);
+    }
+  }
+};
+
+/// Where a map lies on a bed.
+struct MapFit {
+  Eigen::Vector2d size;  ///< of the map on the bed [m]
+  double off = 0.0;      ///< how much it is stretched to fill the bed, as a fraction
+};
+
+/// Error: input, unless the map, as the scene scales it, is as large as the bed to half a cell of either.
+MapFit fit_of(const MapLayout& map, const BedSettings& bed, const std::string& name) {
+  const Eigen::Vector2d cells(map.cols, map.rows), wanted(bed.width, bed.depth);
+  const double scale = bed.surface.scale;
+  // Without a size of its own the map is as wide as the bed.
+  const Eigen::Vector2d own = map.cell ? Eigen::Vector2d(cells.cwiseProduct(*map.cell))
+                                       : Eigen::Vector2d(cells * (bed.width / map.cols));
+  const Eigen::Vector2d size = map.cell ? Eigen::Vector2d(scale * own) : own;
+  const auto fits = [&](const Eigen::Vector2d& placed) {
+    const double tolerance = 0.5 * std::min(bed.cell_size(), placed.cwiseQuotient(cells).minCoeff());
+    return ((placed - wanted).array().abs() <= tolerance).all();
+  };
+  if (fits(size)) return {size, (size.cwiseQuotient(wanted).array() - 1.0).abs().maxCoeff()};
+
+  const double right_scale = bed.width / own.x();
+  const Eigen::Vector2d right_size = right_scale * own;
+  if (!map.cell || !fits(right_size))
+    throw_input_error(
+        "{}: has {} x {} cells{}, which a bed of {} m by {} m cannot have without distortion; cut the map, "
+        "or set bed.size = [{}, {:.6g}]{} and bed.cells so that cells are square",
+        name, map.cols, map.rows,
+        map.cell ? fmt::format(" of {:g} x {:g} m", map.cell->x(), map.cell->y()) : "", bed.width, bed.depth,
+        bed.width, right_size.y(), map.cell ? fmt::format(", bed.surface.scale = {}", right_scale) : "");
+  throw_input_error(
+      "{}: is {:g} m by {:g} m{}, but the bed is {} m by {} m; set bed.surface.scale = {}, which scales "
+      "lengths and heights, or bed.size = [{:g}, {:g}]",
+      name, size.x(), size.y(), scale == 1.0 ? "" : fmt::format(" at bed.surface.scale = {}", scale),
+      bed.width, bed.depth, right_scale, size.x(), size.y());
+}
+
+/// The heights that values stand for: scaled, or stretched so that two of them come to lie at low and high.
+struct HeightRule {
+  double scale = 1.0, low = 0.0, high = 0.0, first = 0.0, last = 0.0;
+  bool stretched = false;
+
+  double height(double value) const { return height(value, 1.0); }
+  /// Of a cell of which this fraction has data; `sum` is its mean times the fraction.
+  double height(double sum, double fraction) const {
+    if (!stretched) return scale * sum;
+    if (sum == last && fraction == 1.0) return high;  // to the bit
+    return low * fraction + (high - low) * ((sum - first * fraction) / (last - first));
+  }
+};
+
+HeightRule rule_of(const MapLayout& map, const MapValues& values, const SurfaceSettings& surface) {
+  HeightRule rule{surface.scale,
+                  surface.low,
+                  surface.high,
+                  map.gray ? 0.0 : values.lowest.value,
+                  map.gray ? 1.0 : values.highest.value,
+                  surface.low != surface.high};
+  if (rule.stretched && rule.first == rule.last) rule.last = rule.first + 1.0;  // a level map lies at `low`
+  return rule;
+}
+
+void check_settings(const MapLayout& map, const BedSettings& bed, const std::string& name) {
+  const SurfaceSettings& surface = bed.surface;
+  if (map.gray && surface.low == surface.high)
+    throw_input_error(
+        "{}: the picture does not say its heights, and bed.surface.low and high are both {} m; set them to "
+        "the heights of black and white",
+        name, surface.low);
+  if (!map.cell && surface.scale != 1.0 && surface.low != surface.high)
+    throw_input_error(
+        "{}: bed.surface.scale = {} does nothing, because the file has no lengths, and bed.surface.low and "
+        "high give its heights; leave it out",
+        name, surface.scale);
+  if (surface.nodata) check_heights(*surface.nodata, *surface.nodata, bed, name + ": bed.surface.nodata");
+}
+
+void say(const MapLayout& map, const MapFit& fit, const MapValues& values, const HeightRule& rule,
+         const BedSettings& bed, const std::string& name) {
+  const bool same_cells = map.rows == bed.rows && map.cols == bed.cols;
+  const bool as_it_is = same_cells && !(map.cell && bed.surface.scale != 1.0) && fit.off < 1e-9;
+  std::string text = fmt::format("{} x {} cells", map.cols, map.rows);
+  if (map.cell) text += fmt::format(" of {:.4g} m", map.cell->x());
+  if (!as_it_is) {
+    text += fmt::format(" fitted to {} x {} cells of {:.4g} m", bed.cols, bed.rows, bed.cell_size());
+    if (map.cell && bed.surface.scale != 1.0) text += fmt::format(" at scale {:g}", bed.surface.scale);
+    if (fit.off >= 1e-9) text += fmt::format(", stretched by {:.2g} %", 100.0 * fit.off);
+  }
+  const bool other_heights = !map.gray && (rule.stretched || rule.scale != 1.0);
+  if (other_heights)
+    text += fmt::format("; heights {:.4g} to {:.4g} m became {:.4g} to {:.4g} m", values.lowest.value,
+                        values.highest.value, rule.height(values.lowest.value),
+                        rule.height(values.highest.value));
+  if (values.missing > 0)
+    text += fmt::format("; {} cells without data{}", values.missing,
+                        bed.surface.nodata ? fmt::format(" were set to {:g} m", *bed.surface.nodata)
+                                           : " lie beyond the wall");
+  if (!map.from_top) text += "; its first row is at the smallest y";
+  if (!as_it_is || other_heights || values.missing > 0 || !map.from_top) spdlog::info("{}: {}", name, text);
+}
+
+/// Turns sums over lines, in the order of the file, into rows and columns of a bed.
+HeightGrid upright(const HeightGrid& lines, const MapLayout& map) {
+  HeightGrid grid = lines;
+  if (map.by_columns) grid = lines.transpose();
+  if (map.from_top) grid = grid.colwise().reverse().eval();
+  return grid;
+}
+
+}  // namespace
+
+void check_heights(double lowest, double highest, const BedSettings& bed, const std::string& what) {
+  constexpr double most = 10.0;
+  const double length = std::max(bed.width, bed.depth);
+  if (lowest >= -most * length && highest <= most * length) return;
+  throw_input_error(
+      "{}: heights from {:g} to {:g} m are beyond the {:g} m (ten times its length) that a bed of {} m by {} "
+      "m may have; give them in metres from z = 0{}",
+      what, lowest, highest, most * length, bed.width, bed.depth,
+      bed.surface.kind == SurfaceKind::file
+          ? ", or set bed.surface.low and high to the heights of the lowest and the highest"
+          : "");
+}
+
+void check_no_gaps(HeightGrid& heights, const BedSettings& bed, const std::string& name,
+                   const std::string& way_out) {
+  const BedGeometry cells(bed.rows, bed.cols, bed.cell_size(), bed.shape);
+  const BedGeometry circle(bed.rows, bed.cols, bed.cell_size(), BedShape::round);
+  std::int64_t gaps = 0, in_circle = 0;
+  for (int row = 0; row < bed.rows; ++row)
+    for (int col = 0; col < bed.cols; ++col) {
+      if (!std::isnan(heights(row, col))) continue;
+      if (!cells.has_sand(row, col)) heights(row, col) = 0.0;
+      gaps += cells.has_sand(row, col);
+      in_circle += circle.has_sand(row, col);
+    }
+  if (gaps == 0) return;
+  throw_input_error("{}: {} of the bed's {} cells have no height (no data, or not a number); {}{}", name,
+                    gaps, static_cast<std::int64_t>(bed.rows) * bed.cols, way_out,
+                    in_circle == 0 ? ", or set bed.shape = \"round\", whose wall leaves them all out" : "");
+}
+
+HeightGrid heights_on_bed(HeightMap& map, const BedSettings& bed, const std::string& name) {
+  const MapLayout& layout = map.layout();
+  check_settings(layout, bed, name);
+  const MapFit fit = fit_of(layout, bed, name);
+  MapMeans means(map.lines(), map.line_length(), layout.by_columns ? bed.cols : bed.rows,
+                 layout.by_columns ? bed.rows : bed.cols);
+  MapValues values;
+  std::vector<double> line(static_cast<std::size_t>(map.line_length()));
+  for (int i = 0; i < map.lines(); ++i) {
+    map.next_line(line.data());
+    means.add(line, values.look_at(line));
+  }
+  values.check(name);
+  const HeightRule rule = rule_of(layout, values, bed.surface);
+  if (values.lowest.cells > 0)
+    check_heights(rule.height(values.lowest.value), rule.height(values.highest.value), bed, name);
+
+  HeightGrid heights = upright(means.sums(), layout);
+  if (values.missing == 0) {
+    heights = heights.unaryExpr([&](double sum) { return rule.height(sum); });
+  } else {
+    const HeightGrid missing = upright(means.missing(), layout);
+    const double fill = bed.surface.nodata.value_or(no_height);
+    heights = heights.binaryExpr(missing, [&](double sum, double gap) {
+      return gap == 0.0 ? rule.height(sum) : rule.height(sum, 1.0 - gap) + fill * gap;
+    });
+    check_no_gaps(heights, bed, name, "set bed.surface.nodata to the height that they shall have");
+  }
+  say(layout, fit, values, rule, bed, name);
+  return heights;
+}
+
+}  // namespace sandstroke
