@@ -102,14 +102,15 @@ StressCase play(const Scene& scene, const Stroke& stroke, std::string name, std:
           std::move(expected), run.verdict,     run.reason.empty() ? figures : run.reason};
 }
 
-/// Runs one stroke with both devices, with and without a force limit. With a limit, the force is bounded at
-/// any depth, and hand and mass are a stable linear system: the device stays bounded. Without a limit, the
-/// kinematic device cannot diverge, but its force may overflow, which is refused. The dynamic device may
-/// diverge or overflow, but not down to a metre: there k_f |F_r| stays below the 2 m / T that sampled drag
-/// bears, or nothing moves sideways. (Nothing is known of a plugin's force without a limit.)
+/// Runs one stroke with both devices, with and without a force limit. With a limit, the device's force is
+/// bounded at any depth, and hand and mass are a stable linear system: the device stays bounded. Without a
+/// limit, the kinematic device cannot diverge. The dynamic device may, but not down to a metre: there
+/// k_f |F_r| stays below the 2 m / T that sampled drag bears, or nothing moves sideways. A force that overflows
+/// before its limit is refused, too. (Nothing is known of a plugin's force without a limit.)
 void play_extreme(StressReport& report, const ExtremeStroke& extreme, const Model& model,
                   const Stroke& stroke) {
   const double deepest = -stroke.position.back().z();
+  const bool by_plugin = !model.plugin_laws.force.empty();
   for (const DeviceModel device : {DeviceModel::kinematic, DeviceModel::dynamic})
     for (const bool limited : {true, false}) {
       const bool dynamic = device == DeviceModel::dynamic;
@@ -119,13 +120,12 @@ void play_extreme(StressReport& report, const ExtremeStroke& extreme, const Mode
         scene.relaxation.max_passes = 20;
         expected.push_back(Verdict::not_converged);
       }
-      if (!limited) {
-        scene.device.max_force = 0.0;
-        const bool by_plugin = !model.plugin_laws.force.empty();
-        if (dynamic && (deepest > 1.0 || by_plugin)) expected.push_back(Verdict::refused);
-        if (!dynamic && !by_plugin && std::isinf(std::exp(scene.force.k_c * deepest)))
-          expected = {Verdict::refused};
-      }
+      if (!limited) scene.device.max_force = 0.0;
+      const bool overflows = !by_plugin && std::isinf(std::exp(scene.force.k_c * deepest));
+      if (overflows && !dynamic)
+        expected = {Verdict::refused};
+      else if (overflows || (dynamic && !limited && (deepest > 1.0 || by_plugin)))
+        expected.push_back(Verdict::refused);
       report.cases.push_back(play(scene, stroke,
                                   fmt::format("{}, {}, {}{}", extreme.name, model.name,
                                               dynamic ? "dynamic" : "kinematic", limited ? "" : ", no limit"),
