@@ -5,6 +5,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -47,7 +48,7 @@ class Stepped {
     if (user_ == std::this_thread::get_id())
       throw_input_error("a law uses the simulation that has called it; let it use only its arguments");
     const WithoutLock let_go;
-    const std::scoped_lock turn(turn_);
+    const std::unique_lock<std::timed_mutex> turn = next_turn();
     const User user(user_);
     return work(*simulation_);
   }
@@ -68,7 +69,20 @@ class Stepped {
     std::atomic<std::thread::id>& thread;
   };
 
-  std::mutex turn_;
+  /// Waits for the threads that came first. Ctrl-C ends the wait, and so does the end of the interpreter: a
+  /// daemon thread that sleeps from then on keeps its turn.
+  std::unique_lock<std::timed_mutex> next_turn() {
+    constexpr std::chrono::milliseconds interval(50);
+    std::unique_lock turn(turn_, std::defer_lock);
+    SignalWatch signals;
+    while (!turn.try_lock_for(interval)) {
+      signals.look();
+      if (leaving()) throw_input_error("a daemon thread still uses the simulation; join it before the end");
+    }
+    return turn;
+  }
+
+  std::timed_mutex turn_;
   std::atomic<std::thread::id> user_;
   std::filesystem::path folder_;
   ViewSettings view_;

@@ -171,7 +171,10 @@ time.sleep(0.1)
     "sandstroke.run(scene, stroke, laws={'force': force})",
     "busy.set(); sandstroke.run(scene, stroke, surface=surface)",
     "sim = sandstroke.Simulation(scene); busy.set()\n    while True: sim.tick((0.0, 0.0, -0.003))",
+    "sim = sandstroke.Simulation(scene, surface=surface)\n"
+    "    threading.Thread(target=sim.relax, daemon=True).start(); busy.set(); sim.relax()",  # one waits for the other
 ])
 def test_the_interpreter_ends_while_a_daemon_thread_works(work):
-    ended = subprocess.run([sys.executable, "-c", IN_A_THREAD.format(work=work)], capture_output=True, text=True)
+    ended = subprocess.run([sys.executable, "-c", IN_A_THREAD.format(work=work)], capture_output=True, text=True,
+                           timeout=20)
     assert (ended.returncode, ended.stderr) == (0, ""), ended
