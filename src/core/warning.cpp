@@ -15,7 +15,7 @@ WarningList::~WarningList() { innermost = around_; }
 void warn(const Warning& warning) {
   for (WarningList* list = innermost; list; list = list->around_) list->warnings_.push_back(warning);
   const bool unstable = warning.code == WarningCode::loop_swings;
-  spdlog::log(unstable ? spdlog::level::err : spdlog::level::warn, "{}", warning.text);
+  spdlog::log(unstable ? spdlog::level::err : spdlog::level::warn, "{}", warning.line());
 }
 
 void warn_if_any(WarningCode code, const std::string& sentence) {

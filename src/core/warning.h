@@ -65,6 +65,8 @@ struct Warning {
   std::string text;
 
   const WarningKind& kind() const { return warning_kinds[static_cast<std::size_t>(code)]; }
+  /// As it is logged: "the sand is not at rest [relaxation: not-at-rest]".
+  std::string line() const { return text + " [" + kind().section + ": " + kind().word + "]"; }
 };
 
 /// Logs a warning, and adds it to the lists of this thread that live.

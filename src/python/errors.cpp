@@ -8,6 +8,7 @@
 #include <exception>
 #include <mutex>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "core/error.h"
@@ -31,9 +32,11 @@ class WarningSink : public spdlog::sinks::base_sink<std::mutex> {
   void flush_() override {}
 };
 
-/// Removes "--set " from an error sentence: Python has no command line.
+/// Removes "--set " and "--unset " from a sentence: Python has no command line.
 std::string without_option(std::string sentence) {
-  for (std::size_t at; (at = sentence.find("--set ")) != std::string::npos;) sentence.erase(at, 6);
+  for (const std::string_view option : {"--set ", "--unset "})
+    for (std::size_t at; (at = sentence.find(option)) != std::string::npos;)
+      sentence.erase(at, option.size());
   return sentence;
 }
 
@@ -50,15 +53,14 @@ py::handle input_error, unstable_error, file_error, result_warning;
 
 /// The warning as Python has it: with its code, if it makes a result doubtful.
 py::object python_warning(const std::string& sentence, const std::vector<Warning>& coded) {
-  const py::str text = without_option(sentence);
   for (const Warning& warning : coded)
-    if (warning.text == sentence) {
-      py::object made = result_warning(text);
+    if (warning.line() == sentence) {
+      py::object made = result_warning(without_option(warning.text));
       made.attr("code") = warning.kind().word;
       made.attr("section") = warning.kind().section;
       return made;
     }
-  return py::reinterpret_borrow<py::object>(PyExc_UserWarning)(text);
+  return py::reinterpret_borrow<py::object>(PyExc_UserWarning)(without_option(sentence));
 }
 
 }  // namespace

@@ -87,6 +87,8 @@ TEST(CliRun, StrictEndsWithCode3WhereThereIsAWarningWhoseWordJsonGives) {
     arguments.emplace_back("--strict");
     const ProgramResult strict = run_program(arguments, folder);
     EXPECT_EQ(strict.exit_code, 3);
+    EXPECT_NE(strict.err.find(" [" + doubt.section + ": " + doubt.word + "]\n"), std::string::npos)
+        << strict.err;
     EXPECT_NE(strict.err.find(doubt.word + " ([" + doubt.section + "])"), std::string::npos) << strict.err;
     EXPECT_NE(strict.err.find((*found)["text"].get<std::string>()), std::string::npos) << strict.err;
   }

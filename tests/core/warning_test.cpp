@@ -18,6 +18,7 @@ TEST(Warnings, EachHasAWordOfItsOwnThatScriptsCanTake) {
   }
   EXPECT_EQ(std::string(Warning{WarningCode::not_at_rest, ""}.kind().word), "not-at-rest");
   EXPECT_EQ(std::string(Warning{WarningCode::stroke_import, ""}.kind().word), "stroke-import");
+  EXPECT_EQ((Warning{WarningCode::not_at_rest, "It moves"}.line()), "It moves [relaxation: not-at-rest]");
 }
 
 TEST(Warnings, ListsKeepThoseThatAreGivenWhileTheyLive) {
