@@ -58,8 +58,7 @@ CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrid
 }
 
 std::string scene_option(const std::string& override_text) {
-  const bool unset = override_text.starts_with('!') && override_text.find('=') == std::string::npos;
-  return unset ? "--unset " + override_text.substr(1) : "--set " + override_text;
+  return override_text.starts_with('!') ? "--unset " + override_text.substr(1) : "--set " + override_text;
 }
 
 std::string stroke_override(const std::string& file) {

@@ -69,10 +69,12 @@ std::set<std::string> unused_by_itself(const SceneText& text) {
   return unused;
 }
 
-/// True if one of the overrides gives the key a value.
+/// True if one of the overrides gives the key, or a table around it, a value.
 bool sets(const std::vector<std::string>& overrides, const std::string& key) {
-  return std::any_of(overrides.begin(), overrides.end(),
-                     [&](const std::string& one) { return one.starts_with(key + "="); });
+  return std::any_of(overrides.begin(), overrides.end(), [&](const std::string& one) {
+    const std::string given = one.substr(0, one.find('='));
+    return key == given || key.starts_with(given + ".");
+  });
 }
 
 SceneFile read_scene(const SceneText& text, const std::vector<std::string>& overrides,

@@ -128,6 +128,8 @@ std::string TomlReader::overrides_in(std::string_view sentence) const {
 }
 
 void TomlReader::take_out(const std::string& key) {
+  if (key.find('=') != std::string::npos)
+    throw_input_error("--unset {}: give only the key, without a value", key);
   check_key_depth(key, "--unset");
   const std::vector<std::string> parts = parts_of(key);
   toml::table* table = &document_->root;
@@ -141,7 +143,7 @@ void TomlReader::take_out(const std::string& key) {
 
 void TomlReader::override_with(const std::string& assignment) {
   const auto equals = assignment.find('=');
-  if (assignment.starts_with('!') && equals == std::string::npos) return take_out(assignment.substr(1));
+  if (assignment.starts_with('!')) return take_out(assignment.substr(1));
   if (equals == 0 || equals == std::string::npos)
     throw_input_error("--set {}: not an assignment; write --set section.key=value", assignment);
   const std::string key = assignment.substr(0, equals);

@@ -188,6 +188,7 @@ TEST(SceneToml, OverridesThatContradictEachOtherOrAFileThatDoesAreStillRefused) 
   EXPECT_THROW(read(contrary, {"tool.shape=plate", "displacement.deposit=outward"}), Error);
   EXPECT_THROW(read("", {"force.law=rft", "force.k_s=3"}), Error);
   EXPECT_THROW(read("", {"force.k_s=3", "force.law=rft"}), Error);
+  EXPECT_THROW(read("", {"force={law='rft', k_s=3}"}), Error);
   // A mapping's settings are a scene's own: others replace them.
   std::vector<LeftOut> left_out;
   const SceneText mapping{"", "scene", {"force.k_s=3"}};
@@ -206,6 +207,7 @@ TEST(SceneToml, AKeyOrASectionCanBeTakenOut) {
                                             "you mean tool.radius?"},
                                   {"force.k_s", "--unset force.k_s: scene.toml has no such key"},
                                   {"tool.radius.x", "no such key"},
+                                  {"tool.radius=1", "--unset tool.radius=1: give only the key"},
                                   {"", "no such key"}}) {
     try {
       read(text, {std::string("!") + key});
