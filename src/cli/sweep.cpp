@@ -222,8 +222,7 @@ void add_sweep_command(CLI::App& app, Command& chosen) {
   command
       ->add_flag("--dry-run", arguments->dry_run,
                  "Run nothing but one point. Print the number of points, the first ones and the last, and "
-                 "the time and "
-                 "memory expected. Looks at 1000 points at most")
+                 "the time and memory expected. Looks at 1000 points at most")
       ->excludes(shard);
   command->add_flag("--json", arguments->json, "Print the summary as one JSON object");
   add_slurm_options(*command, arguments->slurm);

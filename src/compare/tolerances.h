@@ -63,8 +63,7 @@ inline constexpr std::array<ToleranceKey, 6> tolerance_keys{{
      0.0,
      "of 255",
      "Channel difference beyond which a pixel counts for the fraction. At most 0.1 % of the pixels may "
-     "differ by "
-     "more than 4: --pixel-above 4 --pixel-share 0.001 --pixel-tolerance 255"},
+     "differ by more than 4: --pixel-above 4 --pixel-share 0.001 --pixel-tolerance 255"},
 }};
 
 /// Tolerances that somebody set, by name.

@@ -22,8 +22,7 @@ static inline std::string plugin_interface() {
   constexpr int interface = 2;
   return fmt::format(
       "sandstroke {}, laws {}, C++ ABI {}.{}, Eigen {}.{}.{} aligned to {} and {} bytes, indices of {} "
-      "bytes, {} "
-      "floating point, objects of {} {} {} {} {} {} bytes aligned to {} {} {}",
+      "bytes, {} floating point, objects of {} {} {} {} {} {} bytes aligned to {} {} {}",
       version, interface, __GXX_ABI_VERSION, _GLIBCXX_USE_CXX11_ABI, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
       EIGEN_MINOR_VERSION, EIGEN_MAX_ALIGN_BYTES, EIGEN_MAX_STATIC_ALIGN_BYTES, sizeof(Eigen::Index),
       SANDSTROKE_FLOATING_POINT, sizeof(Scene), sizeof(HeightField), sizeof(ToolFootprint), sizeof(Tool),

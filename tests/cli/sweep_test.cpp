@@ -96,8 +96,7 @@ TEST_F(CliSweep, KeepsToTheNumberOfTasksThatAClusterTakes) {
           "for file; do :; done; [ \"$1\" = --version ] && exit 0\n"
           "last=$(sed -n 's/^#SBATCH --array=.*[-,]//p' \"$file\")\n"
           "[ \"${last:-1}\" -gt 10 ] && { echo 'sbatch: error: one' >&2; echo 'sbatch: error: Batch job "
-          "submission "
-          "failed: Invalid job array specification' >&2; exit 1; }\n"
+          "submission failed: Invalid job array specification' >&2; exit 1; }\n"
           "echo 4242");
   Conditions conditions;
   conditions.path = bin.string() + ":/usr/bin:/bin";
