@@ -40,7 +40,8 @@ std::shared_ptr<const PluginLaws> load_plugin(const std::filesystem::path& path)
   if (theirs != ours)
     throw_input_error(
         "{}: was built for {}, but this program is {}; build it again, for this version and without flags "
-        "that change how objects lie in memory, such as -march=native",
+        "that change how objects lie in memory or how numbers are rounded, such as -march=native and "
+        "-ffast-math",
         file, theirs, ours);
   const auto add_laws = function_of<void(PluginLaws&)>(library, "sandstroke_plugin_laws", file);
   try {
