@@ -2,6 +2,8 @@
 
 #include <dlfcn.h>
 
+#include <cfenv>
+
 #include "core/error.h"
 #include "core/input_file.h"
 #include "io/stroke_file.h"
@@ -21,6 +23,16 @@ Function* function_of(void* library, const char* name, const std::string& file) 
   return reinterpret_cast<Function*>(found);
 }
 
+/// Opens a library, and keeps how this thread rounds: what -ffast-math links into it lets tiny numbers be
+/// zero.
+void* open_library(const std::filesystem::path& path) {
+  std::fenv_t rounding;
+  std::fegetenv(&rounding);
+  void* const library = dlopen(std::filesystem::absolute(path).c_str(), RTLD_NOW | RTLD_LOCAL);
+  std::fesetenv(&rounding);
+  return library;
+}
+
 }  // namespace
 
 std::shared_ptr<const PluginLaws> load_plugin(const std::filesystem::path& path) {
@@ -28,7 +40,7 @@ std::shared_ptr<const PluginLaws> load_plugin(const std::filesystem::path& path)
   auto laws = std::make_shared<PluginLaws>();
   laws->hash = file_hash(path);  // this reports a file that cannot be read
   // The library is never closed: its laws, and what they throw, may be in use anywhere.
-  void* const library = dlopen(std::filesystem::absolute(path).c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* const library = open_library(path);
   if (!library) {
     const char* const why = dlerror();
     throw_input_error(
