@@ -12,6 +12,7 @@
 #include "io/mesh_file.h"
 #include "io/run_file.h"
 #include "io/scene_toml.h"
+#include "io/toml_reader.h"
 #include "python/arrays.h"
 #include "python/errors.h"
 #include "python/interpreter_lock.h"
@@ -125,15 +126,23 @@ py::array picture(const SceneHere& here, const py::object& heights, const py::ob
   return py::array(array);
 }
 
+/// Error: input, where the options of `sandstroke compare` would refuse a number, or runs do not use it.
+void check_tolerances(const GivenTolerances& given) {
+  for (const auto& [name, value] : given) {
+    const auto* key = std::find_if(tolerance_keys.begin(), tolerance_keys.end(),
+                                   [&](const ToleranceKey& one) { return one.name == name; });
+    if (key == tolerance_keys.end() || name.starts_with("pixel"))
+      throw_input_error("'{}' is not a tolerance of runs; use height, force or depth", name);
+    if (!key->range.contains(value))
+      throw_input_error("{} is {}; give a number {}", name, value, range_text(key->range));
+  }
+}
+
 /// Compares two runs and returns JSON text.
 std::string comparison(const std::filesystem::path& golden, const std::filesystem::path& run,
                        const GivenTolerances& given, bool coarsen) {
   const WithoutLock let_go;
-  for (const auto& [name, value] : given) {
-    bool known = false;
-    for (const ToleranceKey& key : tolerance_keys) known |= key.name == name;
-    if (!known) throw_input_error("'{}' is not a tolerance; use height, force or depth", name);
-  }
+  check_tolerances(given);
   const Tolerances tolerances = values_of(used_tolerances(given));
   return to_json(compare_runs(RunFile(golden), RunFile(run), tolerances, coarsen)).dump();
 }

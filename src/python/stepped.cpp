@@ -93,7 +93,9 @@ class Stepped {
 template <int n>
 Eigen::Matrix<double, n, 1> vector_of(const py::handle& given, const char* name) {
   Eigen::Matrix<double, n, 1> vector;
-  if (py::isinstance<py::array_t<double>>(given)) {  // the fast case
+  // The fast case. Not for classes derived from arrays: a masked one has any numbers under its mask.
+  if (Py_TYPE(given.ptr()) == py::detail::npy_api::get().PyArray_Type_ &&
+      py::isinstance<py::array_t<double>>(given)) {
     const auto array = py::reinterpret_borrow<py::array_t<double>>(given);
     if (array.ndim() == 1 && array.shape(0) == n) {
       for (int i = 0; i < n; ++i) vector[i] = *array.data(i);

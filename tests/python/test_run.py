@@ -18,7 +18,6 @@ import sandstroke
 from conftest import PROGRAM, SOURCE, needs
 
 
-
 def run_program(*arguments):
     # The module may be run under a sanitizer that is loaded first; the program is not built for it.
     environment = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
@@ -144,7 +143,12 @@ def test_what_is_under_a_mask_is_neither_sand_nor_stroke(small, line):
     for stroke in (masked, {"time": masked[:, 0], "position": masked[:, 1:]}):
         with pytest.raises(sandstroke.InputError, match="position has 3 masked numbers"):
             sandstroke.run(small, stroke)
-
+    states = np.ma.array(np.ones(len(line)), mask=masked.mask[:, 1])
+    with pytest.raises(sandstroke.InputError, match="pen_down has masked values"):
+        sandstroke.run(small, {"time": line[:, 0], "position": line[:, 1:], "pen_down": states})
+    with pytest.raises(sandstroke.InputError, match="not a number"), warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # NumPy's, of the masked number
+        sandstroke.Simulation(small).tick(masked[3, 1:])
 
 
 def test_samples_far_apart_are_joined_where_that_is_asked(small):
@@ -261,8 +265,12 @@ def test_files_that_are_not_there_are_told(tmp_path, small, line):
         sandstroke.read(tmp_path / "nothing.h5")
     with pytest.raises(sandstroke.InputError, match="needs a file"):
         sandstroke.compare(sandstroke.run(small, line), tmp_path / "nothing.h5")
-    with pytest.raises(sandstroke.InputError, match="'hight' is not a tolerance"):
-        sandstroke.compare(tmp_path / "a.h5", tmp_path / "b.h5", hight=1.0)
+    for name in ("hight", "pixel"):
+        with pytest.raises(sandstroke.InputError, match=f"'{name}' is not a tolerance of runs"):
+            sandstroke.compare(tmp_path / "a.h5", tmp_path / "b.h5", **{name: 1.0})
+    for value in (-1.0, float("inf"), float("nan")):
+        with pytest.raises(sandstroke.InputError, match="force is .*; give a number 0 or more"):
+            sandstroke.compare(tmp_path / "a.h5", tmp_path / "b.h5", force=value)
 
 
 def test_what_the_command_warns_of_is_a_python_warning(small, line):

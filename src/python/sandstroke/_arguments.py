@@ -131,6 +131,8 @@ IN_ARRAYS = "<arrays>"  # the file name in a scene of a stroke that is in no fil
 def pen_states(pen_down: Any) -> np.ndarray:
     """1 where a value counts as true, as in an `if`, else 0."""
     states = np.asarray(pen_down)
+    if np.ma.is_masked(pen_down):
+        raise _core.InputError("stroke: pen_down has masked values; fill them, or leave these samples out")
     if states.dtype.kind not in "biufO" or (states.dtype.kind == "f" and np.isnan(states).any()):
         raise _core.InputError("stroke: pen_down must be true or false, or numbers; 0 is false")
     return states.astype(bool).astype(np.uint8)
