@@ -46,6 +46,8 @@ class DepthForce : public DeviceForce {
     return remedy;
   }
 
+  std::vector<std::string> scales() const override { return {"force.k_s", "force.k_c", "force.k_f"}; }
+
  private:
   ForceSettings settings_;
 };

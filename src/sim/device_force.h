@@ -35,6 +35,8 @@ class DeviceForce {
   };
   /// max_drag_force [N]: 0 where drag did nothing.
   virtual Remedy remedy(double max_drag_force) const = 0;
+  /// The keys by which a force, stiffness or drag can become too large for a number.
+  virtual std::vector<std::string> scales() const { return remedy(0.0).lower; }
   /// Where the law's theory does not hold in a scene whose tool goes through the sand at `fastest` [m/s].
   /// Empty: it holds.
   virtual std::string theory_warning(const Scene& /*scene*/, double /*fastest*/) const { return ""; }

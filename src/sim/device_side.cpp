@@ -43,7 +43,7 @@ void DeviceSide::check_numbers(const TickRecord& record) const {
               fmt::format("at {:.4f} s, {:.4g} m deep, the {} is too large for a number; lower {} or the "
                           "stroke's depth",
                           record.time, record.depth, force ? "passivity margin" : "force",
-                          fmt::join(force_->remedy(length_of(record.drag_force)).lower, ", ")));
+                          fmt::join(force_->scales(), ", ")));
 }
 
 void DeviceSide::feel(TickRecord& record) {
