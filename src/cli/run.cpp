@@ -13,6 +13,7 @@
 #include "cli/run_view.h"
 #include "cli/standard_output.h"
 #include "core/error.h"
+#include "core/input_file.h"
 #include "core/interrupt.h"
 #include "core/output_file.h"
 #include "io/film_file.h"
@@ -112,7 +113,7 @@ void check_default_output(const fs::path& output, const fs::path& scene_path, co
 /// Checks every file that the run is to write, before any work. scene_path, output: as run() reads them.
 void check_outputs(const RunArguments& arguments, const SceneFile& scene, const fs::path& scene_path,
                    const std::string& output) {
-  std::vector<fs::path> files = input_files(scene, scene_path.parent_path());
+  std::vector<fs::path> files = input_files(scene, folder_of(scene_path));
   files.push_back(scene_path);
   const auto check = [&files](const fs::path& written, const OutputKind& kind) {
     check_output(written, files, kind);
@@ -135,7 +136,7 @@ void check_outputs(const RunArguments& arguments, const SceneFile& scene, const 
 
 RunOptions options_of(const RunArguments& arguments) {
   RunOptions options;
-  options.scene_folder = fs::path(arguments.scene).parent_path();
+  options.scene_folder = folder_of(arguments.scene);
   options.scene_file = arguments.scene;
   options.threads = arguments.threads;
   options.progress = true;

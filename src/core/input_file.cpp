@@ -71,6 +71,12 @@ bool is_pipe(const fs::path& path) {
   return fs::is_fifo(path, not_there);
 }
 
+fs::path folder_of(const fs::path& path) {
+  std::error_code not_there;
+  const bool nameless = is_pipe(path) && fs::canonical(path, not_there).empty();
+  return nameless ? fs::path() : path.parent_path();
+}
+
 void check_readable(const fs::path& path) { const InputFile opens(path); }
 
 void check_can_be_read_whole(const fs::path& path) {

@@ -36,6 +36,10 @@ class InputFile {
 /// True for a pipe: it can be read only once.
 bool is_pipe(const std::filesystem::path& path);
 
+/// The folder to which the names in a file are relative: the file's own. The current one for a pipe without a
+/// name, as /dev/stdin and what a shell makes of <(command).
+std::filesystem::path folder_of(const std::filesystem::path& path);
+
 /// Error: io, unless it is a regular file that can be opened.
 void check_readable(const std::filesystem::path& path);
 

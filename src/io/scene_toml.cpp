@@ -144,7 +144,7 @@ SceneFile load_scene(const std::filesystem::path& path, const std::vector<std::s
           path.string());
     std::vector<LeftOut> unused;
     SceneFile scene = read_scene(text, overrides, unused);
-    const std::filesystem::path folder = path.parent_path();
+    const std::filesystem::path folder = folder_of(path);
     find_given_file(scene.bed.surface.file, "bed.surface.file", overrides, folder);
     find_given_file(scene.tool.file, "tool.file", overrides, folder);
     find_given_file(scene.plugin_laws.plugin, "model.plugin", overrides, folder);

@@ -95,7 +95,9 @@ Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std:
 
 std::string scene_file_entry(const std::filesystem::path& scene_file, const std::filesystem::path& run_file) {
   const std::filesystem::path folder = std::filesystem::absolute(run_file).parent_path();
-  return std::filesystem::proximate(scene_file, folder).generic_string();
+  std::error_code of_a_pipe;  // as in check_output
+  const std::filesystem::path near = std::filesystem::proximate(scene_file, folder, of_a_pipe);
+  return (of_a_pipe ? scene_file : near).generic_string();
 }
 
 Scene with_files(Scene scene, const std::filesystem::path& folder) {

@@ -145,6 +145,23 @@ TEST(CliRun, TakesPipesInPlaceOfFilesOrSaysThatItCannot) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   run = with_pipe("scene-pipe", read_file(folder / "scene.toml"), {"run", "scene-pipe", "-o", "piped.h5"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
+  // Pipes without a name, as of a shell's <(command): the files of a scene are in the current folder.
+  const auto through_stdin = [&](const std::string& content) {
+    return Conditions{.in_child = [content] {
+      int ends[2];
+      if (pipe(ends) != 0) return;
+      dup2(ends[0], STDIN_FILENO);
+      if (write(ends[1], content.data(), content.size()) < 0) return;  // it fits into the pipe
+      close(ends[1]);
+    }};
+  };
+  run = run_program({"run", "scene.toml", "--stroke", "/dev/stdin", "-o", "piped.h5"}, folder,
+                    through_stdin(table));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE((RunFile(folder / "piped.h5").final() == plain.final()).all());
+  run = run_program({"run", "/dev/stdin", "-o", "piped.h5"}, folder,
+                    through_stdin(read_file(folder / "scene.toml")));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
   for (const std::vector<std::string>& settings :
        std::vector<std::vector<std::string>>{{"bed.surface.kind=file", "bed.surface.file=p.h5"},
                                              {"tool.shape=mesh", "tool.file=p.h5"},
