@@ -63,6 +63,11 @@ AxisRange read_range(const TomlReader& toml, const std::string& key, int most) {
   return range;
 }
 
+[[noreturn]] void refuse_so_many_values(const TomlReader& toml) {
+  toml.fail("axes",
+            fmt::format("have over {} values, and each must be checked; use fewer values", most_values));
+}
+
 void check_distinct(const TomlReader& toml, const std::string& key, const std::vector<std::string>& values) {
   if (std::set(values.begin(), values.end()).size() < values.size())
     toml.fail(key, "contains a value twice; give each value once");
@@ -103,6 +108,7 @@ std::pair<SweepAxis, AxisRange> read_axis(const TomlReader& toml, const std::str
   const AxisRange range = read_range(toml, key, most);
   axis.logarithmic = range.logarithmic;
   axis.of_range = true;
+  if (range.count > most_values) refuse_so_many_values(toml);  // before their memory is taken
   if (range.count > 0)
     axis.values = as_literals(spread(range.from, range.to, range.count, range.logarithmic));
   else if (grid)
@@ -141,9 +147,7 @@ SweepDesign read_design(const TomlReader& toml, const PlanKeys& keys, const Swee
   design.grid = keys.grid;
   std::size_t all_values = 0;
   const auto count_values = [&](std::size_t more) {
-    if ((all_values += more) > most_values)
-      toml.fail("axes",
-                fmt::format("have over {} values, and each must be checked; use fewer values", most_values));
+    if ((all_values += more) > most_values) refuse_so_many_values(toml);
   };
   std::vector<AxisRange> ranges;  // one for each axis
   if (std::optional<SweepAxis> strokes = read_strokes(toml, keys, plan)) {
