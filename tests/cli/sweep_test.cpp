@@ -125,7 +125,7 @@ TEST_F(CliSweep, KeepsToTheNumberOfTasksThatAClusterTakes) {
 
 TEST_F(CliSweep, ThePointsOfSeveralKindsRunAlone) {
   plan("tool.shape = [\"sphere\", \"plate\"]\ntool.width = [0.02, 0.03]\n",
-       "metrics = [\"work\"]\n[set]\ndisplacement.deposit = \"outward\"\n");
+       "metrics = [\"work\"]\n[set]\ndisplacement.deposit = \"outward\"\nbed.cells = [300, 200]\n");
   const ProgramResult result = sweep({"plan.toml", "-o", "out", "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.err.find("tool.shape = sphere: tool.width is left out"), std::string::npos) << result.err;

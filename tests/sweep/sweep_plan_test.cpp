@@ -211,7 +211,7 @@ TEST_F(APlan, IsRefusedInOneSentenceThatSaysWhere) {
 
 TEST_F(APlan, OverKindsNamesPerKindWhatIsLeftOut) {
   put_text(folder / "scenes/scene.toml",
-           "[bed]\nsize = [0.3, 0.3]\ncells = [60, 60]\n[tool]\nradius = 0.02\n[force]\nk_s = 500\n"
+           "[bed]\nsize = [0.3, 0.3]\ncells = [300, 300]\n[tool]\nradius = 0.02\n[force]\nk_s = 500\n"
            "[displacement]\ndeposit = 'outward'\n[stroke]\nfile = \"line.toml\"\n");
   const SweepPlan plan = load(std::string(begin_plan) +
                               "[set]\ntool.width = 0.05\n[axes]\ntool.shape = [\"sphere\", \"plate\"]\n"
@@ -230,8 +230,8 @@ TEST_F(APlan, OverKindsNamesPerKindWhatIsLeftOut) {
 
 TEST_F(APlan, ChecksTheValuesOfAnAxisThatAppliesOnlyWithAnotherKind) {
   const std::string shapes = std::string(begin_plan) +
-                             "[set]\ndisplacement.deposit = \"outward\"\n[axes]\n"
-                             "tool.shape = [\"sphere\", \"plate\"]\n";
+                             "[set]\ndisplacement.deposit = \"outward\"\nbed.cells = [300, 300]\n"
+                             "[axes]\ntool.shape = [\"sphere\", \"plate\"]\n";
   EXPECT_EQ(load(shapes + "tool.width = [0.02, 0.05]\n").design.axes[1].unit, "m");
   EXPECT_NE(refusal(shapes + "tool.width = [0.02, -0.05]\n").find("axes.tool.width cannot be -0.05"),
             std::string::npos);

@@ -85,7 +85,8 @@ TEST_F(SweepStatusTest, PointsThatFailedAreDone) {
   done({0, 1, 2, 3, 4, 5, 6});
   done({7}, PointVerdict::refused);
   EXPECT_EQ(local().advice(),
-            "all points are done, but 1 failed: collect them with sandstroke sweep collect");
+            "all points are done, but 1 failed: collect them with sandstroke sweep collect " +
+                folder.path().string());
 }
 
 TEST_F(SweepStatusTest, TasksAreWhatFolderAndQueueSay) {
