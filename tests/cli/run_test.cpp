@@ -70,10 +70,11 @@ TEST(CliRun, StrictEndsWithCode3WhereThereIsAWarningWhoseWordJsonGives) {
     std::vector<std::string> settings;
     std::string word, section;
   };
-  for (const Doubt& doubt : {Doubt{{"stroke.offset=[0, 0, 0.02]"}, "nothing-touched", "stroke"},
-                             Doubt{{"relaxation.max_passes=1"}, "not-at-rest", "relaxation"},
-                             Doubt{{"force.law=rft", "force.friction_angle=50"}, "force-theory", "force"},
-                             Doubt{{"stroke.offset=[0, 0, -0.5]"}, "stroke-deep", "stroke"}}) {
+  for (const Doubt& doubt :
+       {Doubt{{"stroke.offset=[0, 0, 0.02]"}, "nothing-touched", "stroke"},
+        Doubt{{"bed.surface.kind=cliff", "relaxation.max_passes=1"}, "not-at-rest", "relaxation"},
+        Doubt{{"force.law=rft", "force.friction_angle=50"}, "force-theory", "force"},
+        Doubt{{"stroke.offset=[0, 0, -0.5]"}, "stroke-deep", "stroke"}}) {
     std::vector<std::string> arguments = {"run", "scene.toml", "--json"};
     for (const std::string& setting : doubt.settings) {
       arguments.emplace_back("--set");
