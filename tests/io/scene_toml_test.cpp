@@ -251,7 +251,7 @@ TEST(SceneToml, RefusesWhatCannotBeMeant) {
           "scene.toml:2: relaxation.travel was replaced by relaxation.way, in tool radii instead of cells");
   refuses("[relaxation]\nengin = 1\n", "unknown key relaxation.engin; did you mean relaxation.law?");
   refuses("[tool]\nradius = 3.0\n[stroke]\nfile = \"x.toml\"\n", "fit");
-  refuses("[tool]\nradius = 1e-4\n[stroke]\nfile = 'x.h5'\n", "half a cell");
+  refuses("[tool]\nradius = 1e-4\n[stroke]\nfile = 'x.h5'\n", "0.1 cells wide");
   refuses("[stroke]\nscale = 2\n", "stroke.file");
   refuses("[device]\nservo_rate = 0\n", "device.servo_rate");
   refuses("[force]\nk_s = inf\n", "finite");
