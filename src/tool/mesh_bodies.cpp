@@ -57,8 +57,8 @@ TriangleMesh part_of(const TriangleMesh& mesh, const std::vector<std::size_t>& t
   return part;
 }
 
-/// The bodies, in the order of their first triangles.
-std::vector<TriangleMesh> bodies_of(const TriangleMesh& mesh, const std::string& name) {
+/// The triangles of each body, in the order of their first ones.
+std::vector<std::vector<std::size_t>> parts_of(const TriangleMesh& mesh) {
   std::vector<std::int32_t> linked(mesh.vertices.size());
   std::iota(linked.begin(), linked.end(), 0);
   const auto root = [&](std::int32_t vertex) {
@@ -80,6 +80,11 @@ std::vector<TriangleMesh> bodies_of(const TriangleMesh& mesh, const std::string&
     }
     parts[part].push_back(i);
   }
+  return parts;
+}
+
+std::vector<TriangleMesh> bodies_of(const TriangleMesh& mesh, const std::string& name) {
+  const std::vector<std::vector<std::size_t>> parts = parts_of(mesh);
   if (parts.size() > most_bodies)
     throw_input_error(
         "{}: has {} bodies that do not hang together, but a tool may have at most {}; unite them in the "
@@ -165,19 +170,26 @@ std::vector<bool> inner_ones(const std::vector<TriangleMesh>& bodies) {
 }  // namespace
 
 TriangleMesh with_triangles_once(const TriangleMesh& mesh, const std::string& name) {
-  std::vector<Facet> facets;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) facets.push_back(facet_of(mesh.triangles[i], i));
-  std::sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) {
-    return std::pair(a.corners, a.triangle) < std::pair(b.corners, b.triangle);
-  });
   std::vector<std::size_t> kept;
-  for (std::size_t begin = 0, end; begin < facets.size(); begin = end) {
-    int facing = 0;
-    for (end = begin; end < facets.size() && facets[end].corners == facets[begin].corners; ++end)
-      facing += facets[end].facing;
-    if (facing == 0) continue;
-    while (facets[begin].facing != (facing > 0 ? 1 : -1)) ++begin;
-    kept.push_back(facets[begin].triangle);
+  for (const std::vector<std::size_t>& part : parts_of(mesh)) {
+    std::vector<Facet> facets;
+    for (const std::size_t i : part) facets.push_back(facet_of(mesh.triangles[i], i));
+    std::sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) {
+      return std::pair(a.corners, a.triangle) < std::pair(b.corners, b.triangle);
+    });
+    const std::size_t kept_before = kept.size();
+    std::vector<std::size_t> first_of_each;
+    for (std::size_t begin = 0, end; begin < facets.size(); begin = end) {
+      first_of_each.push_back(facets[begin].triangle);
+      int facing = 0;
+      for (end = begin; end < facets.size() && facets[end].corners == facets[begin].corners; ++end)
+        facing += facets[end].facing;
+      if (facing == 0) continue;
+      while (facets[begin].facing != (facing > 0 ? 1 : -1)) ++begin;
+      kept.push_back(facets[begin].triangle);
+    }
+    // A body all of whose triangles face both ways is a surface that was made two-sided for a renderer.
+    if (kept.size() == kept_before) kept.insert(kept.end(), first_of_each.begin(), first_of_each.end());
   }
   if (kept.size() == mesh.triangles.size()) return mesh;
   warn(

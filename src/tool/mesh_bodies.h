@@ -10,7 +10,8 @@ namespace sandstroke {
 // vertex. `name`: the file's.
 
 /// The mesh with each triangle once, with a warning if that changes it. Two triangles that lie on each other
-/// and face each other, as where two parts touch, are inside the tool: both are left out.
+/// and face each other, as where two parts touch, are inside the tool: both are left out. If that would
+/// leave none of a body, its surface is two-sided, and the first of each counts.
 TriangleMesh with_triangles_once(const TriangleMesh& mesh, const std::string& name);
 
 /// The bodies (parts that share no corner) that lie in no other one, with a warning of those that do: solids,

@@ -65,7 +65,9 @@ TEST(MeshBodies, WhatIsThereTwiceOrInsideCountsOnce) {
   for (const TriangleMesh& mesh :
        {one, together({one, one}), together({one, one, one}), together({one, inner}), together({inner, one}),
         together({one, inside_out(inner)}), together({one, inner, innermost}),
-        together({one, inside_out(inner), innermost}), together({inside_out(one), inside_out(one)})}) {
+        together({one, inside_out(inner), innermost}), together({inside_out(one), inside_out(one)}),
+        together({one, inside_out(one)}), together({inside_out(one), one}),
+        together({inner, one, inside_out(one)})}) {
     const TriangleMesh checked = checked_mesh(mesh, "t.stl");
     EXPECT_EQ(checked.vertices.size(), 8u);
     EXPECT_EQ(checked.triangles.size(), 12u);
