@@ -285,6 +285,12 @@ void check_tool(const Scene& scene, const std::string& name) {
         name);
   if (scene.tool.shape == ToolShape::mesh && scene.tool.file.empty())
     throw_input_error("{}: tool.file is missing; name a mesh (.stl)", name);
+  if (scene.tool.shape == ToolShape::rake && scene.tool.teeth > 1 &&
+      scene.tool.spacing < 2.0 * scene.tool.radius)
+    throw_input_error(
+        "{}: tool.spacing = {} m: teeth of {} m in diameter overlap, and what they share would count twice; "
+        "set a spacing of {} m or more, a smaller tool.radius, or tool.shape = \"plate\"",
+        name, scene.tool.spacing, 2.0 * scene.tool.radius, 2.0 * scene.tool.radius);
   if (scene.stroke) check_tool_fits(scene, name);
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "core/error.h"
 #include "core/machine.h"
 #include "sand/all_laws.h"
@@ -117,6 +119,20 @@ TEST(CheckScene, ASphereMustBeTwoCellsWide) {
   for (const auto& [radius, taken] : {std::pair{0.0095, false}, {0.0105, true}}) {
     scene.tool.radius = radius;
     EXPECT_EQ(is_taken(scene), taken) << radius;
+  }
+}
+
+TEST(CheckScene, TeethOfARakeMayTouchButNotOverlap) {
+  Scene scene = stroked_scene(0.3, 300, 0.2, 200);
+  scene.preset = ModelPreset::accurate;
+  apply_model_preset(scene);
+  scene.tool.shape = ToolShape::rake;
+  scene.tool.radius = 0.004;
+  for (const auto& [spacing, teeth, taken] :
+       {std::tuple{0.0079, 3, false}, {0.0079, 1, true}, {0.008, 3, true}, {0.02, 3, true}}) {
+    scene.tool.spacing = spacing;
+    scene.tool.teeth = teeth;
+    EXPECT_EQ(is_taken(scene), taken) << spacing << " " << teeth;
   }
 }
 
