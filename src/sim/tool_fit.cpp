@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/elementary.h"
 #include "core/error.h"
@@ -17,7 +18,7 @@ namespace {
 /// The least width [cells]. A sphere of less leaves nothing, or half its depth, as the cells lie. A cell at
 /// the edge of any other tool is as deep as those in its middle: a furrow of 1.5 cells is 13 to 99 % too
 /// large, of three cells 9 to 54 %.
-constexpr double least_of_sphere = 2.0, least_of_others = 3.0;
+double least_cells(ToolShape shape) { return shape == ToolShape::sphere ? 2.0 : 3.0; }
 /// From here on [cells] a furrow is within a few percent.
 constexpr double fine = 10.0;
 constexpr double of_corners = 1e-3;  // the corners of round shapes lie on the circle, their sides inside
@@ -26,10 +27,14 @@ bool is_sphere(const Scene& scene) { return scene.tool.shape == ToolShape::spher
 
 bool is_known(const Scene& scene) { return scene.tool.shape != ToolShape::mesh || scene.tool.mesh; }
 
-/// bed.cells in which a width [m] has so many cells.
+/// bed.cells in which a width [m] has so many cells; empty if no bed may have as many. Cells must be square,
+/// so the numbers keep their ratio.
 std::string cells_for(const BedSettings& bed, double width, double cells) {
-  const auto along = [&](double size) { return std::ceil(size * cells / width * (1.0 - of_corners)); };
-  return fmt::format("bed.cells = [{:.0f}, {:.0f}]", along(bed.width), along(bed.depth));
+  const int square = std::gcd(bed.cols, bed.rows);  // cells along the largest squares that tile the bed
+  const double along = std::ceil(square * bed.cell_size() * cells / width * (1.0 - of_corners)),
+               cols = bed.cols / square * along, rows = bed.rows / square * along;
+  if (!(std::max(cols, rows) <= BedGeometry::most_cells)) return "";
+  return fmt::format("bed.cells = [{:.0f}, {:.0f}]", cols, rows);
 }
 
 void check_size(const Scene& scene, const std::string& name) {
@@ -41,10 +46,15 @@ void check_size(const Scene& scene, const std::string& name) {
         "{}: tool.radius = {} m: the tool and its rampart ({:.3g} m) do not fit the bed ({} m by {} m); take "
         "a smaller radius",
         name, scene.tool.radius, 2.0 * reach, bed.width, bed.depth);
+  constexpr double millimetre = 1e-3;
+  const bool may_be_in_millimetres =
+      scene.tool.shape == ToolShape::mesh && scene.tool.scale == 1.0 &&
+      millimetre * narrowest_width(scene.tool, std::numeric_limits<double>::infinity()) >=
+          least_cells(scene.tool.shape) * bed.cell_size();
   throw_input_error(
       "{}: the tool is {:.3g} m wide and does not fit the bed ({} m by {} m); take a smaller one{}", name,
       2.0 * reach, bed.width, bed.depth,
-      scene.tool.shape == ToolShape::mesh && scene.tool.scale == 1.0
+      may_be_in_millimetres
           ? fmt::format(
                 "; is the mesh in millimetres? Then set tool.scale = 0.001, which makes it {:.3g} mm wide",
                 2.0 * reach)
@@ -69,7 +79,7 @@ const char* width_key(ToolShape shape) {
 void check_tool_fits(const Scene& scene, const std::string& name, double depth) {
   if (!is_known(scene)) return;
   check_size(scene, name);
-  const double least = is_sphere(scene) ? least_of_sphere : least_of_others;
+  const double least = least_cells(scene.tool.shape);
   const double width = narrowest_width(scene.tool, depth), cells = width / scene.bed.cell_size();
   if (!(cells < least * (1.0 - of_corners))) return;
   const double whole = narrowest_width(scene.tool, std::numeric_limits<double>::infinity());
@@ -79,10 +89,11 @@ void check_tool_fits(const Scene& scene, const std::string& name, double depth) 
   if (!(width > 0.0))
     throw_input_error("{}: the tool has no width{}; take a tool with a wider tip, or a larger {}", name,
                       where, key);
+  const std::string finer = cells_for(scene.bed, width, least);
   throw_input_error(
       "{}: the tool is only {:.3g} cells wide at its narrowest{} ({:.4g} m), and a furrow needs {:g} cells; "
-      "take {} or more, or a larger {}{}",
-      name, cells, where, width, least, cells_for(scene.bed, width, least), key,
+      "take {}a larger {}{}",
+      name, cells, where, width, least, finer.empty() ? "" : finer + " or more, or ", key,
       scene.tool.shape == ToolShape::mesh && scene.tool.scale < 1.0
           ? fmt::format(" (is the mesh in metres? Then set tool.scale = 1; it is {:g})", scene.tool.scale)
           : "");
@@ -98,12 +109,13 @@ std::string coarse_tool_warning(const Scene& scene, double depth) {
   if (!is_known(scene) || !(depth > 0.0)) return "";
   const double width = narrowest_width(scene.tool, depth), cells = width / scene.bed.cell_size();
   if (!(cells < fine * (1.0 - of_corners))) return "";
+  const std::string finer = cells_for(scene.bed, width, fine);
   return fmt::format(
       "the tool is {:.3g} cells wide at its narrowest: its furrow may be off by up to {:.0f} %, and by "
-      "{:.0f} % with "
-      "ten, {}; --estimate-error says more",
+      "{:.0f} % "
+      "with ten{}; --estimate-error says more",
       cells, 100.0 * expected_furrow_error(scene.tool.shape, cells),
-      100.0 * expected_furrow_error(scene.tool.shape, fine), cells_for(scene.bed, width, fine));
+      100.0 * expected_furrow_error(scene.tool.shape, fine), finer.empty() ? "" : ", " + finer);
 }
 
 }  // namespace sandstroke

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "core/error.h"
 #include "tool/tool_surface.h"
 
@@ -63,6 +65,21 @@ TEST(ToolFit, TheSentenceNamesTheWidthAndTheCellsThatItNeeds) {
   EXPECT_EQ(complaint(scene), "");
 }
 
+TEST(ToolFit, TheCellsThatItNamesAreSquareAndEnough) {
+  Scene scene = scene_with(ToolShape::plate, 1.0);
+  for (const auto& [cols, rows, thickness, text] :
+       {std::tuple{400, 200, 0.002, "take bed.cells = [600, 300] or more, or a larger tool.thickness"},
+        {123, 65, 0.002, "take bed.cells = [246, 130] or more, or a larger tool.thickness"},
+        {400, 200, 1e-6, "needs 3 cells; take a larger tool.thickness"}}) {
+    scene.bed.cols = cols;
+    scene.bed.rows = rows;
+    scene.bed.width = 1e-3 * cols;
+    scene.bed.depth = 1e-3 * rows;
+    scene.tool.thickness = thickness;
+    EXPECT_NE(complaint(scene).find(text), std::string::npos) << complaint(scene);
+  }
+}
+
 TEST(ToolFit, AConeIsJudgedWhereItEntersTheSand) {
   const Scene scene = scene_with(ToolShape::cone, 1.0);
   EXPECT_EQ(complaint(scene), "");
@@ -81,6 +98,9 @@ TEST(ToolFit, AMeshIsJudgedAsTheBoxOfItsSize) {
     EXPECT_EQ(complaint(mesh).empty(), complaint(box).empty()) << size;
     EXPECT_EQ(complaint(mesh).empty(), size == 0.02) << size;
   }
+  // Millimetres are asked for only where they would make a tool that the cells resolve.
+  EXPECT_EQ(complaint(mesh).find("millimetres"), std::string::npos) << complaint(mesh);
+  mesh.bed.cols = mesh.bed.rows = 4000;
   EXPECT_NE(complaint(mesh).find(
                 "is the mesh in millimetres? Then set tool.scale = 0.001, which makes it 0.141 mm wide"),
             std::string::npos);
