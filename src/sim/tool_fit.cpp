@@ -17,8 +17,10 @@ namespace {
 
 /// The least width [cells]. A sphere of less leaves nothing, or half its depth, as the cells lie. A cell at
 /// the edge of any other tool is as deep as those in its middle: a furrow of 1.5 cells is 13 to 99 % too
-/// large, of three cells 9 to 54 %.
-double least_cells(ToolShape shape) { return shape == ToolShape::sphere ? 2.0 : 3.0; }
+/// large, of three cells 9 to 54 %. A rake's furrows are within 10 % from eight cells on.
+double least_cells(ToolShape shape) {
+  return shape == ToolShape::sphere ? 2.0 : shape == ToolShape::rake ? 8.0 : 3.0;
+}
 /// From here on [cells] a furrow is within a few percent.
 constexpr double fine = 10.0;
 constexpr double of_corners = 1e-3;  // the corners of round shapes lie on the circle, their sides inside

@@ -14,8 +14,8 @@ namespace sandstroke {
 const char* width_key(ToolShape shape);
 
 /// Error: input, if the tool does not fit the bed, or if it is narrower (narrowest_width) than two cells, as
-/// a sphere, or three cells, as any other tool: it would leave a furrow that depends on where the cells lie,
-/// or none. depth [m]: what counts is the tool up to there. `name`: the file that the error names.
+/// a sphere, eight, as a rake, or three, as any other tool: it would leave a furrow that depends on where the
+/// cells lie, or none. depth [m]: what counts is the tool up to there. `name`: the file that the error names.
 void check_tool_fits(const Scene& scene, const std::string& name,
                      double depth = std::numeric_limits<double>::infinity());
 

@@ -137,7 +137,7 @@ double narrowest_width(const TriangleMesh& surface, double depth) {
 }
 
 double narrowest_width(const ToolSettings& tool, double depth) {
-  if (tool.shape == ToolShape::sphere) return 2.0 * tool.radius;
+  if (tool.shape == ToolShape::sphere || tool.shape == ToolShape::rake) return 2.0 * tool.radius;
   return narrowest_width(turned(tool_surface(tool), own_rotation(tool)), depth);
 }
 

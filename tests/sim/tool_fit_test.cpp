@@ -47,7 +47,7 @@ TEST(ToolFit, ToolsThatTheCellsDoNotResolveAreRefusedInEachOrientation) {
         for (const double turn : {0.0, 15.0, 45.0}) {
           Scene scene = with(shape, cell, size);
           scene.tool.orientation.z() = turn;
-          const bool resolved = size > 0.999e-3 * 3.0 * cell;
+          const bool resolved = size > 0.999e-3 * (shape == ToolShape::rake ? 8.0 : 3.0) * cell;
           const std::string text = complaint(scene);
           EXPECT_EQ(text.empty(), resolved) << static_cast<int>(shape) << " " << size << " in " << cell;
         }
@@ -78,6 +78,12 @@ TEST(ToolFit, TheCellsThatItNamesAreSquareAndEnough) {
     scene.tool.thickness = thickness;
     EXPECT_NE(complaint(scene).find(text), std::string::npos) << complaint(scene);
   }
+}
+
+TEST(ToolFit, RoundTeethAreJudgedAsASphereIsWhereverTheyEnter) {
+  Scene scene = scene_with(ToolShape::rake, 1.0);
+  scene.tool.radius = 0.004;
+  for (const double depth : {0.0005, 0.004, 0.02}) EXPECT_EQ(complaint(scene, depth), "") << depth;
 }
 
 TEST(ToolFit, AConeIsJudgedWhereItEntersTheSand) {
