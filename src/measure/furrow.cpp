@@ -238,7 +238,7 @@ std::string furrow_warning(const Scene& scene, const FurrowMeasures& furrow) {
   return fmt::format(
       "{}: behind the tool, sand falls back into such a deep furrow; a larger {} or a steeper "
       "relaxation.talus_angle leaves a deeper one",
-      left, width_key(scene.tool.shape));
+      left, width_key(scene.tool));
 }
 
 }  // namespace sandstroke

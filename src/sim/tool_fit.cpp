@@ -65,12 +65,12 @@ void check_size(const Scene& scene, const std::string& name) {
 
 }  // namespace
 
-const char* width_key(ToolShape shape) {
-  switch (shape) {
+const char* width_key(const ToolSettings& tool) {
+  switch (tool.shape) {
     case ToolShape::box:
       return "tool.size";
     case ToolShape::plate:
-      return "tool.thickness";
+      return tool.width < tool.thickness ? "tool.width" : "tool.thickness";
     case ToolShape::mesh:
       return "tool.scale";
     default:
@@ -87,7 +87,7 @@ void check_tool_fits(const Scene& scene, const std::string& name, double depth) 
   const double whole = narrowest_width(scene.tool, std::numeric_limits<double>::infinity());
   const std::string where =
       whole > width * (1.0 + of_corners) ? fmt::format(" up to its depth of {:.4g} m", depth) : "";
-  const char* key = width_key(scene.tool.shape);
+  const char* key = width_key(scene.tool);
   if (!(width > 0.0))
     throw_input_error("{}: the tool has no width{}; take a tool with a wider tip, or a larger {}", name,
                       where, key);

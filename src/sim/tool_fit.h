@@ -10,8 +10,8 @@ namespace sandstroke {
 // A tool must fit its bed, and its cells must resolve it. Both are told before a run begins. A mesh that was
 // not read is not looked at.
 
-/// The key of the settings that makes a tool of that shape wider, such as "tool.radius".
-const char* width_key(ToolShape shape);
+/// The key of the settings that makes a tool's narrowest part wider, such as "tool.radius".
+const char* width_key(const ToolSettings& tool);
 
 /// Error: input, if the tool does not fit the bed, or if it is narrower (narrowest_width) than two cells, as
 /// a sphere, eight, as a rake, or three, as any other tool: it would leave a furrow that depends on where the

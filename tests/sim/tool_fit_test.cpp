@@ -80,6 +80,12 @@ TEST(ToolFit, TheCellsThatItNamesAreSquareAndEnough) {
   }
 }
 
+TEST(ToolFit, TheSentenceNamesTheNarrowSideOfAPlate) {
+  Scene scene = scene_with(ToolShape::plate, 1.0);
+  scene.tool.width = 0.001;
+  EXPECT_NE(complaint(scene).find("or a larger tool.width"), std::string::npos) << complaint(scene);
+}
+
 TEST(ToolFit, RoundTeethAreJudgedAsASphereIsWhereverTheyEnter) {
   Scene scene = scene_with(ToolShape::rake, 1.0);
   scene.tool.radius = 0.004;
