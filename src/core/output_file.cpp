@@ -104,7 +104,7 @@ void drop_part(const fs::path& path) {
 
 namespace {
 
-fs::path folder_of(const fs::path& path) {
+fs::path folder_to_write(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
@@ -132,7 +132,7 @@ void check_output(const fs::path& output, const std::vector<fs::path>& others, c
   if (fs::is_directory(output)) throw_io_error("{}: is a folder; name a file", output.string());
   if (fs::exists(output) && !fs::is_regular_file(output))
     throw_io_error("{}: is not a regular file; name a regular file", output.string());
-  const fs::path folder = folder_of(output);
+  const fs::path folder = folder_to_write(output);
   if (!fs::is_directory(folder))
     throw_io_error("{}: cannot be written, because the folder {} does not exist; make it first",
                    output.string(), folder.string());
@@ -156,7 +156,7 @@ fs::path beside(const fs::path& path, const std::string& ending) {
 }
 
 void sync_folder_of(const fs::path& path) {
-  const int descriptor = open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int descriptor = open(folder_to_write(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
   fsync(descriptor);
   close(descriptor);
