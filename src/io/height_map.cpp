@@ -18,7 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* by_gdal = "convert it: gdal_translate FILE map.tif";
-constexpr const char* to_grid = "make a grid of its points first: gdal_grid -ot Float32 ... FILE map.tif";
+constexpr const char* to_grid =
+    "make a grid of its points first: pdal translate FILE map.tif --writers.gdal.resolution=METRES "
+    "--writers.gdal.output_type=mean";
 constexpr KindNotRead maps_not_read[] = {
     {"PK\x03\x04", ".npz", "a NumPy archive (.npz)",
      "save one array: numpy.save('map.npy', numpy.load('FILE')['NAME'])"},

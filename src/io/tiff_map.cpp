@@ -161,8 +161,8 @@ void check_one_map(const OpenTiff& tiff) {
     const auto kind = tiff.number<std::uint32_t>(TIFFTAG_SUBFILETYPE);
     if (kind & FILETYPE_MASK)
       tiff.refuse(
-          "has a mask for cells without data; write them as a number: gdal_translate -mask none "
-          "-a_nodata -9999 FILE map.tif, after gdalwarp -dstnodata -9999");
+          "has a mask for cells without data; write them as a number: gdalwarp -dstnodata -9999 FILE "
+          "map.tif");
     if (!(kind & FILETYPE_REDUCEDIMAGE))
       tiff.refuse("has several pictures; save the one with the heights by itself");
   }

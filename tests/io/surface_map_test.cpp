@@ -350,7 +350,7 @@ TEST_F(SurfaceMap, TiffsThatWouldBeTakenWronglyAreRefused) {
   refused({"inverted"}, [](auto& is) { is.photometric = PHOTOMETRIC_MINISWHITE; });
   refused({"orientation 4"}, [](auto& is) { is.orientation = ORIENTATION_BOTLEFT; });
   refused({"several pictures"}, [](auto& is) { is.second_page = 0; });
-  refused({"a mask"}, [](auto& is) { is.second_page = FILETYPE_MASK; });
+  refused({"a mask", "gdalwarp -dstnodata"}, [](auto& is) { is.second_page = FILETYPE_MASK; });
   refused({"scale or an offset", "-unscale"}, [](auto& is) {
     is.metadata = "<GDALMetadata><Item name=\"SCALE\" sample=\"0\" role=\"scale\">0.1</Item></GDALMetadata>";
   });
@@ -378,8 +378,8 @@ TEST_F(SurfaceMap, KindsThatAreNotReadNameAWayOut) {
   put_text(file("map"), "[bed]\nsize = [1.0, 1.0]\n");
   expect_refused(bed_of(3, 4, 0.1), {"is a scene, not a run file"});
   const std::vector<std::pair<std::string, std::string>> begins = {
-      {"LASF", "gdal_grid"},  {"CDF\x01", "gdal_translate"}, {"DSAA", "Surfer"},
-      {"\x1F\x8B", "gunzip"}, {"PK\x03\x04", "unpack"},      {"\xFF\xD8\xFF", "16-bit"}};
+      {"LASF", "pdal translate"}, {"CDF\x01", "gdal_translate"}, {"DSAA", "Surfer"},
+      {"\x1F\x8B", "gunzip"},     {"PK\x03\x04", "unpack"},      {"\xFF\xD8\xFF", "16-bit"}};
   for (const auto& [begin, way_out] : begins) {
     put_text(file("map"), begin + std::string(100, '\1'));
     expect_refused(bed_of(3, 4, 0.1), {way_out});
