@@ -15,8 +15,8 @@ namespace {
 
 /// True for a number that programs of maps write for no data: none is the height of a bed.
 bool is_usual_no_data(double value) {
-  constexpr std::array usual = {-9999.0, -99999.0, -32767.0, -32768.0};
-  constexpr double most = 1e30;  // most others are near the largest float
+  constexpr std::array usual = {-9999.0, -99999.0, -32767.0, -32768.0, 999999.0};  // the last: NumPy's masks
+  constexpr double most = 1e15;  // most others are near the largest float; NumPy's masks are 1e20
   return std::find(usual.begin(), usual.end(), value) != usual.end() || std::abs(value) > most;
 }
 
@@ -52,14 +52,14 @@ struct MapValues {
   /// Error: input, if some are no heights.
   void check(const std::string& name) const {
     for (const MapEnd& end : {lowest, highest}) {
-      if (end.cells == 0) continue;  // no cell has data
+      if (end.cells == 0) throw_input_error("{}: no cell has a height; save the map again", name);
       if (std::isinf(end.value))
         throw_input_error("{}: {} cells have heights that are not finite numbers; correct them", name,
                           end.cells);
       if (is_usual_no_data(end.value))
         throw_input_error(
-            "{}: {} cells have the height {:g} m, which usually means no data, but the file does not say so; "
-            "mark it as no data (gdal_translate -a_nodata {:g}; in NumPy: nan)",
+            "{}: {} cells have the height {} m, which usually means no data, but the file does not say so; "
+            "mark it as no data (gdal_translate -a_nodata {}; in NumPy: nan)",
             name, end.cells, end.value, end.value);
     }
   }
@@ -220,8 +220,7 @@ HeightGrid heights_on_bed(HeightMap& map, const BedSettings& bed, const std::str
   }
   values.check(name);
   const HeightRule rule = rule_of(layout, values, bed.surface);
-  if (values.lowest.cells > 0)
-    check_heights(rule.height(values.lowest.value), rule.height(values.highest.value), bed, name);
+  check_heights(rule.height(values.lowest.value), rule.height(values.highest.value), bed, name);
 
   HeightGrid heights = upright(means.sums(), layout);
   if (values.missing == 0) {

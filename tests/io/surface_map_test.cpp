@@ -244,6 +244,15 @@ TEST_F(SurfaceMap, CellsWithoutDataAreCountedOrFilled) {
   }
 }
 
+TEST_F(SurfaceMap, AMapWithoutAnyHeightIsRefused) {
+  put_text(file("map"), npy_bytes<double>(HeightGrid::Constant(4, 4, nan), "<f8"));
+  BedSettings bed = bed_of(4, 4, 0.05);
+  expect_refused(bed, {"no cell has a height"});
+  bed.surface.nodata = 0.01;
+  bed.surface.high = 0.02;
+  expect_refused(bed, {"no cell has a height"});
+}
+
 TEST_F(SurfaceMap, BeyondTheWallOfARoundBedNoDataIsNeeded) {
   const BedGeometry round(20, 20, 0.01, BedShape::round);
   HeightGrid h = levels(20, 20, 9, 0.001);
@@ -268,8 +277,10 @@ TEST_F(SurfaceMap, HeightsThatNoBedHasAreRefused) {
     put_text(file("map"), npy_bytes<double>(h, "<f8"));
     expect_refused(bed_of(4, 4, 0.05), parts);
   };
-  for (const double number : {-9999.0, -32768.0, -3.4028234663852886e38})
+  for (const double number : {-9999.0, -32768.0, 999999.0, 1e20})
     refused(number, {"2 cells have the height", "usually means no data", "nan"});
+  // To the last digit: as -3.40282e+38 it would be another number, and be refused again.
+  refused(-3.4028234663852886e38, {"-a_nodata -3.4028234663852886e+38"});
   refused(1512.0, {"to 1512 m are beyond the 2 m", "bed.surface.low and high"});
   refused(std::numeric_limits<double>::infinity(), {"2 cells have heights that are not finite"});
   BedSettings bed = bed_of(4, 4, 0.05);
