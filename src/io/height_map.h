@@ -44,7 +44,8 @@ class HeightMap {
 
 /// True if a value is the one that stands for no data, to the precision of a float: texts round it.
 inline bool is_no_data(double value, double no_data) {
-  return std::abs(value - no_data) <= 2e-7 * std::abs(no_data);
+  return value == no_data ||
+         (std::isfinite(no_data) && std::abs(value - no_data) <= 2e-7 * std::abs(no_data));
 }
 
 /// Opens a PNG, TIFF, NumPy array or ESRI ASCII grid, known by its content or its ending, and reads what it

@@ -3,7 +3,9 @@
 #include <tiffio.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <limits>
@@ -143,6 +145,18 @@ void check_units(const OpenTiff& tiff) {
           fmt::format("has {} in another unit than metres (EPSG:{}); convert them, and remove the unit",
                       key == length_unit ? "lengths" : "heights", value));
   }
+  // As GDAL writes it: <Item name="UNITTYPE" sample="0" role="unittype">ft</Item>
+  constexpr std::string_view before = "role=\"unittype\">";
+  const std::string_view metadata = tiff.text(gdal_metadata_tag);
+  const std::size_t found = metadata.find(before);
+  if (found == std::string_view::npos) return;
+  const std::string_view rest = metadata.substr(found + before.size()), unit = rest.substr(0, rest.find('<'));
+  constexpr std::array metres = {"m", "metre", "metres", "meter", "meters"};
+  if (std::find(metres.begin(), metres.end(), unit) == metres.end())
+    tiff.refuse(fmt::format(
+        "has heights in '{}' instead of metres; convert them: gdal_calc.py -A FILE --calc=A*METRES "
+        "--outfile=map.tif",
+        unit));
 }
 
 /// Refuses files of which this would read only a part, or the wrong numbers.
@@ -186,6 +200,14 @@ std::optional<Eigen::Vector2d> pixel_size(const OpenTiff& tiff) {
   return size;
 }
 
+/// The number that GDAL's tag says. None: there is no tag, or it says not-a-number.
+std::optional<double> no_data_of(std::string_view text) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (text == "inf") return infinity;
+  if (text == "-inf") return -infinity;
+  return finite_number(text);
+}
+
 class TiffMap : public HeightMap {
  public:
   explicit TiffMap(const std::filesystem::path& path) : tiff_(path) {
@@ -197,8 +219,7 @@ class TiffMap : public HeightMap {
       layout_.cell = size->cwiseAbs();
       layout_.from_top = size->y() > 0.0;
     }
-    if (const std::string_view text = tiff_.text(gdal_no_data_tag); !text.empty())
-      no_data_ = finite_number(text);
+    no_data_ = no_data_of(tiff_.text(gdal_no_data_tag));
     layout_.gray = type_.kind == StoredType::Kind::natural && !layout_.cell;
     check_one_map(tiff_);
     tiled_ = TIFFIsTiled(tiff_) != 0;

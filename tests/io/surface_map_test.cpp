@@ -107,6 +107,14 @@ TEST_F(SurfaceMap, EachFormatGivesTheHeightsThatWereWritten) {
                              is.geo_keys = {1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3076, 0, 1, 9001};
                            }));
        }},
+      {"tiff with heights in metres",
+       [&] {
+         write_tiff<float>(map, h, with([](auto& is) {
+                             is.metadata =
+                                 "<GDALMetadata><Item name=\"UNITTYPE\" "
+                                 "role=\"unittype\">metre</Item></GDALMetadata>";
+                           }));
+       }},
       {"tiff with an overview",
        [&] { write_tiff<float>(map, h, with([](auto& is) { is.second_page = FILETYPE_REDUCEDIMAGE; })); }},
   };
@@ -212,6 +220,7 @@ TEST_F(SurfaceMap, CellsWithoutDataAreCountedOrFilled) {
   h(0, 0) = h(0, 1) = h(5, 3) = -9999.0;
   HeightGrid holes = (h == -9999.0).select(nan, h), filled = (h == -9999.0).select(0.025, h);
   const HeightGrid lowest = (h == -9999.0).select(-3.4028234663852886e38, h);
+  const HeightGrid infinite = (h == -9999.0).select(-std::numeric_limits<double>::infinity(), h);
   const TiffOptions is{.pixel_scale = {0.1, 0.1, 0.0}, .no_data = "-9999"};
   const std::vector<std::function<void()>> formats = {
       [&] { put_text(file("map"), esri_text(h, 0.1, "NODATA_value -9999\n")); },
@@ -222,6 +231,7 @@ TEST_F(SurfaceMap, CellsWithoutDataAreCountedOrFilled) {
       [&] { put_text(file("map"), npy_bytes<double>(holes, "<f8", true)); },
       [&] { write_tiff<double>(file("map"), h, is); },
       [&] { write_tiff<double>(file("map"), holes); },
+      [&] { write_tiff<double>(file("map"), infinite, {.no_data = "-inf"}); },
   };
   for (std::size_t i = 0; i < formats.size(); ++i) {
     SCOPED_TRACE(i);
@@ -351,6 +361,9 @@ TEST_F(SurfaceMap, TiffsThatWouldBeTakenWronglyAreRefused) {
           [](auto& is) { is.geo_keys = {1, 1, 0, 1, 3076, 0, 1, 9003}; });
   refused({"heights in another unit", "9002"},
           [](auto& is) { is.geo_keys = {1, 1, 0, 1, 4099, 0, 1, 9002}; });
+  refused({"heights in 'ft' instead of metres", "gdal_calc.py"}, [](auto& is) {
+    is.metadata = "<GDALMetadata><Item name=\"UNITTYPE\" role=\"unittype\">ft</Item></GDALMetadata>";
+  });
   refused({"rotated"}, [](auto& is) {
     is.pixel_scale = {};
     is.transformation = {1, 0.5, 0, 5, -0.5, -1, 0, 7, 0, 0, 0, 0, 0, 0, 0, 1};
