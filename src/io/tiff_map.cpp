@@ -61,7 +61,7 @@ class OpenTiff {
   /// another type, whose bytes these would not be.
   template <class Number>
   std::span<const Number> values(std::uint32_t tag) const {
-    const TIFFField* const field = TIFFFieldWithTag(tiff_, tag);
+    const TIFFField* const field = TIFFFindField(tiff_, tag, TIFF_ANY);
     std::uint32_t count = 0;
     void* first = nullptr;
     if (!field || TIFFGetField(tiff_, tag, &count, &first) != 1 || !first) return {};
@@ -253,8 +253,6 @@ class TiffMap : public HeightMap {
       tiff_.refuse(
           fmt::format("has tiles of {} x {} pixels; save it with smaller ones", tile_cols_, band_rows_));
     if (TIFFTileSize64(tiff_) != tile_bytes) tiff_.throw_damaged();
-    tile_.resize(tile_bytes);
-    band_.resize(band_bytes);
   }
 
   /// The bytes of the next row from the top.
@@ -271,6 +269,9 @@ class TiffMap : public HeightMap {
   /// Reads the tiles that the next rows cross.
   void read_band() {
     const auto cols = static_cast<std::uint32_t>(layout_.cols);
+    // Not before the map is known to fit the bed.
+    tile_.resize(type_.bytes * tile_cols_ * band_rows_);
+    band_.resize(row_bytes_ * band_rows_);
     for (std::uint32_t col = 0; col < cols; col += tile_cols_) {
       if (TIFFReadTile(tiff_, tile_.data(), col, row_, 0, 0) < 0) tiff_.throw_damaged();
       const std::size_t bytes = type_.bytes * std::min(tile_cols_, cols - col);
