@@ -1,6 +1,7 @@
 #include "io/png_map.h"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "core/error.h"
@@ -15,13 +16,14 @@ class PngMap : public HeightMap {
     png_.check_size();
     if (!png_.gray() || png_.bit_depth() != 16)
       throw_input_error("{}: is {}-bit {}; heights need a 16-bit grayscale PNG", png_.name(),
-                        png_.bit_depth(), png_.gray() ? "grayscale" : "colour");
+                        png_.bit_depth(), png_.gray() ? "grayscale" : "colour or with alpha");
     set_size(png_.name(), png_.height(), png_.width());
     constexpr double most_interlaced = 0x1p26;  // cells
     if (png_.interlaced() && static_cast<double>(layout_.rows) * layout_.cols > most_interlaced)
       throw_input_error("{}: has {} x {} pixels, too many for an interlaced PNG; save it without interlacing",
                         png_.name(), layout_.cols, layout_.rows);
     layout_.gray = true;
+    no_data_ = png_.transparent_gray();  // as GDAL writes it
     row_.resize(2 * static_cast<std::size_t>(layout_.cols));
   }
 
@@ -31,7 +33,10 @@ class PngMap : public HeightMap {
     } else {
       png_.next_row(row_.data());
     }
-    for (std::size_t i = 0; i < row_.size(); i += 2) *values++ = (row_[i] * 256 + row_[i + 1]) / 65535.0;
+    for (std::size_t i = 0; i < row_.size(); i += 2) {
+      const int gray = row_[i] * 256 + row_[i + 1];
+      *values++ = gray == no_data_ ? std::numeric_limits<double>::quiet_NaN() : gray / 65535.0;
+    }
   }
 
  private:
@@ -43,6 +48,7 @@ class PngMap : public HeightMap {
   }
 
   PngReader png_;
+  std::optional<int> no_data_;
   std::vector<png_byte> row_, all_;
   std::size_t taken_ = 0;
 };

@@ -27,6 +27,12 @@ std::string PngReader::text(const std::string& keyword) const {
   return "";
 }
 
+std::optional<int> PngReader::transparent_gray() const {
+  png_color_16p colour = nullptr;
+  if (!gray() || !png_get_tRNS(png_, info_, nullptr, nullptr, &colour) || !colour) return {};
+  return colour->gray;
+}
+
 void PngReader::check_size() const {
   if (width() > largest_png_side || height() > largest_png_side)
     throw_input_error("{}: has {} x {} pixels, which are too many; a picture has at most {} per side", name_,

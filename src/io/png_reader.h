@@ -4,6 +4,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ class PngReader {
            png_get_valid(png_, info_, PNG_INFO_tRNS);
   }
   bool gray() const { return png_get_color_type(png_, info_) == PNG_COLOR_TYPE_GRAY; }
+  /// The stored gray of the pixels of a gray PNG that are transparent; none: none are.
+  std::optional<int> transparent_gray() const;
   bool interlaced() const { return png_get_interlace_type(png_, info_) != PNG_INTERLACE_NONE; }
 
   /// The text of a keyword before the pixels; empty if there is none.

@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 #include <tiffio.h>
+#include <zlib.h>
 
 #include <bit>
 #include <cstdint>
@@ -54,6 +55,14 @@ std::string npy_bytes(const HeightGrid& heights, const std::string& type, bool f
     bytes += bytes_of_number(static_cast<Number>(heights(row, col)), big);
   }
   return bytes;
+}
+
+/// A chunk of a PNG: its type, four letters, and then its data.
+inline std::string png_chunk(const std::string& type_and_data) {
+  const auto sum =
+      crc32(0, reinterpret_cast<const Bytef*>(type_and_data.data()), static_cast<uInt>(type_and_data.size()));
+  return bytes_of_number(static_cast<std::uint32_t>(type_and_data.size() - 4), true) + type_and_data +
+         bytes_of_number(static_cast<std::uint32_t>(sum), true);
 }
 
 /// What a TIFF is like besides its heights.

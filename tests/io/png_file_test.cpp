@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <png.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -16,6 +15,7 @@
 #include "core/input_file.h"
 #include "core/output_file.h"
 #include "core/version.h"
+#include "io/map_files.h"
 #include "map_values.h"
 #include "test_folder.h"
 
@@ -162,14 +162,8 @@ TEST_F(PngFile, HeightsSayTheirRangeToTheBit) {
        {"1 to", "a to b m", "1 to 2 km", "0 to inf m", "1e999 to 2 m", " 1 to 2 m"}) {
     std::string bytes = encode_height_png(heights, {0.0, 1.0});
     const std::size_t chunk = bytes.find("tEXtHeights") - 4;
-    std::string other = "tEXtHeights" + std::string(1, '\0') + text;
-    const auto sum = static_cast<std::uint32_t>(
-        crc32(0, reinterpret_cast<const Bytef*>(other.data()), static_cast<uInt>(other.size())));
-    const auto number = [](std::uint32_t value) {
-      return std::string{char(value >> 24), char(value >> 16), char(value >> 8), char(value)};
-    };
     bytes.replace(chunk, bytes.find("IDAT") - 4 - chunk,
-                  number(static_cast<std::uint32_t>(other.size() - 4)) + other + number(sum));
+                  png_chunk("tEXtHeights" + std::string(1, '\0') + text));
     put_text(file("other.png"), bytes);
     EXPECT_FALSE(read_gray_range(file("other.png"))) << text;
   }

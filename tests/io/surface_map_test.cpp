@@ -215,6 +215,18 @@ TEST_F(SurfaceMap, ATiffOfGrayNeedsTheHeightsOfBlackAndWhite) {
   expect_refused(bed, {"bed.surface.scale = 0.5 does nothing"});
 }
 
+TEST_F(SurfaceMap, TheTransparentGrayOfAPngIsNoData) {
+  HeightGrid h = levels(4, 4, 65534, 1e-6);
+  h(2, 1) = h(0, 3) = 65535e-6;
+  std::string png = encode_height_png(h, {0.0, 65535e-6});
+  png.insert(png.find("IDAT") - 4, png_chunk("tRNS\xFF\xFF"));
+  put_text(file("map.png"), png);
+  BedSettings bed = bed_of(4, 4, 0.1, "map.png");
+  expect_refused(bed, {"2 of the bed's 16 cells have no height"});
+  bed.surface.nodata = 0.025;
+  EXPECT_LT((load(bed) - (h == 65535e-6).select(0.025, h)).abs().maxCoeff(), 1e-15);
+}
+
 TEST_F(SurfaceMap, CellsWithoutDataAreCountedOrFilled) {
   HeightGrid h = levels(6, 6, 9, 0.01);
   h(0, 0) = h(0, 1) = h(5, 3) = -9999.0;
