@@ -1,20 +1,29 @@
 #include "core/progress.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 
 namespace sandstroke {
 
-Progress::Progress(std::string title)
-    : title_(std::move(title)), start_(Clock::now()), next_draw_(start_ + std::chrono::seconds(1)) {}
+Progress::Progress(std::string title, Clock::duration silence)
+    : title_(std::move(title)),
+      start_(Clock::now()),
+      next_(start_ + (line_.visible() ? std::chrono::seconds(1) : silence)) {}
 
 bool Progress::due() {
-  if (!line_.visible()) return false;
   const auto now = Clock::now();
-  if (now < next_draw_) return false;
-  next_draw_ = now + std::chrono::milliseconds(200);
+  if (now < next_) return false;
+  next_ = now + (line_.visible() ? std::chrono::milliseconds(200) : now - start_);
   return true;
+}
+
+void Progress::show(const std::string& bar, const std::string& text) {
+  if (line_.visible())
+    line_.draw(fmt::format("{}{} {}", title_, bar, text));
+  else
+    spdlog::info("{}: {} after {:.0f} s", title_, text,
+                 std::chrono::duration<double>(Clock::now() - start_).count());
 }
 
 void Progress::update(double fraction) {
@@ -23,12 +32,12 @@ void Progress::update(double fraction) {
   const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
   constexpr int width = 32;
   const int filled = static_cast<int>(done * width);
-  line_.draw(fmt::format("{} [{}{}] {:3.0f} %, {:.0f} s left", title_, std::string(filled, '#'),
-                         std::string(width - filled, '.'), 100.0 * done, elapsed / done - elapsed));
+  show(fmt::format(" [{}{}]", std::string(filled, '#'), std::string(width - filled, '.')),
+       fmt::format("{:.0f} %, {:.0f} s left", 100.0 * done, elapsed / done - elapsed));
 }
 
 void Progress::count(std::int64_t done, const char* what) {
-  if (due()) line_.draw(fmt::format("{} {} {}", title_, done, what));
+  if (due()) show("", fmt::format("{} {}", done, what));
 }
 
 }  // namespace sandstroke

@@ -8,10 +8,12 @@
 
 namespace sandstroke {
 
-/// A progress bar with the time left, on stderr. It appears after a second, and only on a terminal.
+/// A progress bar with the time left, on a terminal after a second. Elsewhere the log says the same in a
+/// line, after `silence` and whenever as much time has passed again, so that nothing long is silent.
 class Progress {
  public:
-  explicit Progress(std::string title);
+  using Clock = std::chrono::steady_clock;
+  explicit Progress(std::string title, Clock::duration silence = std::chrono::seconds(20));
 
   /// fraction: done so far, 0 to 1. It is cheap enough to be called often.
   void update(double fraction);
@@ -19,12 +21,12 @@ class Progress {
   void count(std::int64_t done, const char* what);
 
  private:
-  using Clock = std::chrono::steady_clock;
   bool due();
+  void show(const std::string& bar, const std::string& text);
   std::string title_;
   Clock::time_point start_;
-  Clock::time_point next_draw_;
   StatusLine line_;
+  Clock::time_point next_;
 };
 
 }  // namespace sandstroke
