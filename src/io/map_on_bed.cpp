@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/progress.h"
 #include "io/map_means.h"
 
 namespace sandstroke {
@@ -165,6 +166,18 @@ void say(const MapLayout& map, const MapFit& fit, const MapValues& values, const
   if (!as_it_is || other_heights || values.missing > 0 || !map.from_top) spdlog::info("{}: {}", name, text);
 }
 
+MapValues read_lines(HeightMap& map, const std::string& name, MapMeans& means) {
+  MapValues values;
+  std::vector<double> line(static_cast<std::size_t>(map.line_length()));
+  Progress progress("read " + name);
+  for (int i = 0; i < map.lines(); ++i) {
+    map.next_line(line.data());
+    means.add(line, values.look_at(line));
+    progress.update((i + 1.0) / map.lines());
+  }
+  return values;
+}
+
 /// Turns sums over lines, in the order of the file, into rows and columns of a bed.
 HeightGrid upright(const HeightGrid& lines, const MapLayout& map) {
   HeightGrid grid = lines;
@@ -212,12 +225,7 @@ HeightGrid heights_on_bed(HeightMap& map, const BedSettings& bed, const std::str
   const MapFit fit = fit_of(layout, bed, name);
   MapMeans means(map.lines(), map.line_length(), layout.by_columns ? bed.cols : bed.rows,
                  layout.by_columns ? bed.rows : bed.cols);
-  MapValues values;
-  std::vector<double> line(static_cast<std::size_t>(map.line_length()));
-  for (int i = 0; i < map.lines(); ++i) {
-    map.next_line(line.data());
-    means.add(line, values.look_at(line));
-  }
+  const MapValues values = read_lines(map, name, means);
   values.check(name);
   const HeightRule rule = rule_of(layout, values, bed.surface);
   check_heights(rule.height(values.lowest.value), rule.height(values.highest.value), bed, name);
