@@ -94,9 +94,9 @@ MapFit fit_of(const MapLayout& map, const BedSettings& bed, const std::string& n
         "or set bed.size = [{}, {:.6g}]{} and bed.cells so that cells are square",
         name, map.cols, map.rows,
         map.cell ? fmt::format(" of {:g} x {:g} m", map.cell->x(), map.cell->y()) : "", bed.width, bed.depth,
-        bed.width, right_size.y(), map.cell ? fmt::format(", bed.surface.scale = {}", right_scale) : "");
+        bed.width, right_size.y(), map.cell ? fmt::format(", bed.surface.scale = {:.9g}", right_scale) : "");
   throw_input_error(
-      "{}: is {:g} m by {:g} m{}, but the bed is {} m by {} m; set bed.surface.scale = {}, which scales "
+      "{}: is {:g} m by {:g} m{}, but the bed is {} m by {} m; set bed.surface.scale = {:.9g}, which scales "
       "lengths and heights, or bed.size = [{:g}, {:g}]",
       name, size.x(), size.y(), scale == 1.0 ? "" : fmt::format(" at bed.surface.scale = {}", scale),
       bed.width, bed.depth, right_scale, size.x(), size.y());
