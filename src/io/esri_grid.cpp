@@ -29,6 +29,12 @@ bool is_esri_key(const std::string& word) {
   return std::find(std::begin(esri_keys), std::end(esri_keys), word) != std::end(esri_keys);
 }
 
+/// True for not-a-number, as C and Python write it.
+bool is_nan(std::string_view word) {
+  const std::string small = in_small_letters(word);
+  return small == "nan" || small == "-nan";
+}
+
 /// The words of a text file and the lines they are in.
 class WordsOfFile {
  public:
@@ -58,7 +64,7 @@ class WordsOfFile {
   /// Error: input, unless it is a number; not-a-number counts.
   double number(std::string_view word) const {
     if (const std::optional<double> value = finite_number(word)) return *value;
-    if (in_small_letters(word) == "nan") return std::numeric_limits<double>::quiet_NaN();
+    if (is_nan(word)) return std::numeric_limits<double>::quiet_NaN();
     if (word.find(',') != std::string_view::npos)
       fail(word, "has a comma; save the grid with points in numbers, and blanks between them");
     fail(word, "is not a number; save the grid again");
@@ -113,7 +119,7 @@ class EsriGrid : public HeightMap {
   void read_header() {
     for (word_ = words_.next(); !word_.empty(); word_ = words_.next()) {
       const std::string key = in_small_letters(word_);
-      if (std::isalpha(static_cast<unsigned char>(key.front())) == 0 || key == "nan") return;
+      if (std::isalpha(static_cast<unsigned char>(key.front())) == 0 || is_nan(key)) return;
       if (!is_esri_key(key))
         words_.fail(word_,
                     "is no key of an ESRI ASCII grid, which are ncols, nrows, xllcorner, yllcorner, "

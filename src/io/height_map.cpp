@@ -24,6 +24,9 @@ constexpr const char* to_grid =
 constexpr KindNotRead maps_not_read[] = {
     {"PK\x03\x04", ".npz", "a NumPy archive (.npz)",
      "save one array: numpy.save('map.npy', numpy.load('FILE')['NAME'])"},
+    {"\xFF\xFE", "", "a text in UTF-16", "save it in UTF-8"},
+    {"\xFE\xFF", "", "a text in UTF-16", "save it in UTF-8"},
+    {"north:", "", "a GRASS ASCII grid", by_gdal},
     {"DSAA", "", "a Surfer grid", by_gdal},
     {"DSBB", "", "a Surfer grid", by_gdal},
     {"DSRB", "", "a Surfer grid", by_gdal},
@@ -96,9 +99,10 @@ std::unique_ptr<HeightMap> open_height_map(const fs::path& path) {
   if (head.starts_with(png_signature) || ending == ".png") return open_png_map(path);
   if (is_tiff(head)) return open_tiff_map(path);
   if (head.starts_with("\x93NUMPY")) return open_npy_map(path);
-  if (begins_as_esri_grid(head) || ending == ".asc") return open_esri_grid(path);
+  if (begins_as_esri_grid(head)) return open_esri_grid(path);
   refuse_kinds(maps_not_read, path, head);
   refuse_kinds(packed_kinds, path, head);
+  if (ending == ".asc") return open_esri_grid(path);  // which says what it lacks
   if (ending == ".tif" || ending == ".tiff" || ending == ".npy")
     throw_input_error("{}: is not what its ending {} says; save the map again", path.string(), ending);
   return nullptr;

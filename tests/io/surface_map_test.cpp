@@ -238,6 +238,7 @@ TEST_F(SurfaceMap, CellsWithoutDataAreCountedOrFilled) {
       [&] { put_text(file("map"), esri_text(h, 0.1, "NODATA_value -9999\n")); },
       [&] { put_text(file("map"), esri_text(h, 0.1)); },  // the format's own number for no data
       [&] { put_text(file("map"), esri_text(holes, 0.1)); },
+      [&] { put_text(file("map"), esri_text((h == -9999.0).select(-nan, h), 0.1)); },
       [&] { put_text(file("map"), esri_text(lowest, 0.1, "NODATA_value -3.40282346639e+38\n")); },
       [&] { put_text(file("map"), npy_bytes<double>(holes, "<f8")); },
       [&] { put_text(file("map"), npy_bytes<double>(holes, "<f8", true)); },
@@ -410,6 +411,13 @@ TEST_F(SurfaceMap, KindsThatAreNotReadNameAWayOut) {
   for (const std::string& bytes : {std::string(), std::string("some text"), std::string("\1\2\0\3", 4)}) {
     put_text(file("map"), bytes);
     expect_refused(bed_of(3, 4, 0.1), {"neither a run file nor a map"});
+  }
+  for (const auto& [begin, way_out] : {std::pair{"\x1F\x8B", "gunzip"},
+                                       {"\xFF\xFEn", "UTF-8"},
+                                       {"north: 1\n", "gdal_translate"},
+                                       {"1 2", "ncols"}}) {
+    put_text(file("map.asc"), begin);
+    expect_refused(bed_of(3, 4, 0.1, "map.asc"), {way_out});
   }
   put_text(file("map"), "[bed]\nsize = [1.0, 1.0]\n");
   expect_refused(bed_of(3, 4, 0.1), {"is a scene, not a run file"});
