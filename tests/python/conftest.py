@@ -14,7 +14,7 @@ SOURCE = pathlib.Path(os.environ["SANDSTROKE_SOURCE"])
 SMALL = {
     "bed": {"size": [0.2, 0.12], "cells": [100, 60]},
     "model": {"preset": "accurate"},
-    "tool": {"radius": 0.008},
+    "tool": {"radius": 0.01},
 }
 
 

@@ -47,7 +47,7 @@ def test_a_run_that_writes_a_file_writes_that_of_the_command(tmp_path):
 
 
 def test_scenes_are_files_mappings_and_scenes_with_other_settings(small, line):
-    flat = {"bed.size": [0.2, 0.12], "bed.cells": np.array([100, 60]), "model.preset": "accurate", "tool.radius": 0.008}
+    flat = {"bed.size": [0.2, 0.12], "bed.cells": np.array([100, 60]), "model.preset": "accurate", "tool.radius": 0.01}
     one, other = sandstroke.run(small, line), sandstroke.run(flat, line)
     assert np.array_equal(one.final, other.final)
     again = sandstroke.run(sandstroke.Scene(small), line)
@@ -76,8 +76,8 @@ def test_strokes_are_files_arrays_and_mappings(small, line, tmp_path):
 
 def test_scenes_are_texts_can_be_read_and_sent(small, line):
     import pickle
-    scene = sandstroke.Scene("[bed]\nsize = [0.2, 0.12]\ncells = [100, 60]\n", {"tool.radius": 0.008})
-    assert scene["bed.cells"] == [100, 60] and scene["tool.radius"] == 0.008
+    scene = sandstroke.Scene("[bed]\nsize = [0.2, 0.12]\ncells = [100, 60]\n", {"tool.radius": 0.01})
+    assert scene["bed.cells"] == [100, 60] and scene["tool.radius"] == 0.01
     assert scene.to_dict()["relaxation"]["talus_angle"] == 30.0
     again = pickle.loads(pickle.dumps(scene))
     assert again.text == scene.text
@@ -164,7 +164,7 @@ def test_the_axes_say_where_cells_are(small, line):
     assert run.cell_size == pytest.approx(0.002)
     assert np.allclose(np.diff(run.x), 0.002) and abs(run.x.sum()) < 1e-12
     row, column = np.unravel_index(run.final.argmin(), run.final.shape)
-    assert abs(run.y[row]) < 0.008 and -0.06 < run.x[column] < 0.06  # in the furrow along x
+    assert abs(run.y[row]) < 0.01 and -0.06 < run.x[column] < 0.06  # in the furrow along x
 
 
 def test_arrays_are_no_copies_read_only_and_outlive_the_run(small, line):

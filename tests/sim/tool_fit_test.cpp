@@ -122,7 +122,7 @@ TEST(ToolFit, ACoarseToolIsWarnedOfWithTheErrorToExpect) {
   Scene scene = scene_with(ToolShape::sphere, 1.0);
   scene.tool.radius = 0.001;
   EXPECT_EQ(coarse_tool_warning(scene, 0.0005),
-            "the tool is 2 cells wide at its narrowest: its furrow may be off by up to 54 %, and by 6 % "
+            "the tool is 2 cells wide at its narrowest: its furrow may be off by up to 70 %, and by 5 % "
             "with ten, bed.cells = [600, 600]; --estimate-error says more");
   scene.tool.radius = 0.005;
   EXPECT_EQ(coarse_tool_warning(scene, 0.0005), "");
