@@ -72,6 +72,7 @@ void warn_of_depth(const Sweep& sweep) {
 }
 
 int dry_run(Sweep& sweep, const SweepArguments& arguments) {
+  if (!arguments.json) spdlog::info("runs one point, to measure it");
   const Sweep::Estimate estimate = sweep.estimate();
   if (interrupted()) return 128 + interrupted();
   const SweepDesign& design = sweep.plan().design;

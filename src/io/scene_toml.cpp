@@ -148,7 +148,12 @@ SceneFile load_scene(const std::filesystem::path& path, const std::vector<std::s
     find_given_file(scene.bed.surface.file, "bed.surface.file", overrides, folder);
     find_given_file(scene.tool.file, "tool.file", overrides, folder);
     find_given_file(scene.plugin_laws.plugin, "model.plugin", overrides, folder);
-    if (scene.stroke) find_given_file(scene.stroke->file, "stroke.file", overrides, folder);
+    if (scene.stroke) {
+      find_given_file(scene.stroke->file, "stroke.file", overrides, folder);
+      const std::filesystem::path stroke = folder / scene.stroke->file;
+      // Who starts a run may give it a pipe; a stranger's scene that names one would wait for ever.
+      if (is_pipe(stroke) && !sets(overrides, "stroke.file")) check_readable(stroke);
+    }
     if (left_out)
       left_out->insert(left_out->end(), unused.begin(), unused.end());
     else if (!unused.empty())

@@ -95,7 +95,8 @@ void check_tool_fits(const Scene& scene, const std::string& name, double depth) 
   throw_input_error(
       "{}: the tool is only {:.3g} cells wide at its narrowest{} ({:.4g} m), and a furrow needs {:g} cells; "
       "take {}a larger {}{}",
-      name, cells, where, width, least, finer.empty() ? "a smaller bed.size, or " : finer + " or more, or ", key,
+      name, cells, where, width, least, finer.empty() ? "a smaller bed.size, or " : finer + " or more, or ",
+      key,
       scene.tool.shape == ToolShape::mesh && scene.tool.scale < 1.0
           ? fmt::format(" (is the mesh in metres? Then set tool.scale = 1; it is {:g})", scene.tool.scale)
           : "");
@@ -113,7 +114,8 @@ std::string coarse_tool_warning(const Scene& scene, double depth) {
   if (!(cells < fine * (1.0 - of_corners))) return "";
   const std::string finer = cells_for(scene.bed, width, fine);
   return fmt::format(
-      "the tool is {:.3g} cells wide at its narrowest: its furrow may be off by up to {:.0f} %, and by {:.0f} % "
+      "the tool is {:.3g} cells wide at its narrowest: its furrow may be off by up to {:.0f} %, and by "
+      "{:.0f} % "
       "with ten{}; --estimate-error says more",
       cells, 100.0 * expected_furrow_error(scene.tool.shape, cells),
       100.0 * expected_furrow_error(scene.tool.shape, fine), finer.empty() ? "" : ", " + finer);

@@ -1,5 +1,6 @@
 #include "sweep/sweep_inputs.h"
 
+#include "core/input_file.h"
 #include "core/machine.h"
 #include "io/mesh_file.h"
 #include "io/plugin_file.h"
@@ -26,7 +27,10 @@ std::shared_ptr<const SweepStroke> SweepInputs::stroke(const Scene& scene) {
   const std::filesystem::path path = scene_folder_ / scene.stroke->file;
   const std::scoped_lock lock(files_);
   const auto [by_force, is_new] = by_force_.try_emplace(path.string());
-  if (is_new) by_force->second = stroke_depends_on_force(path);
+  if (is_new) {
+    check_readable(path);  // no pipe, which can be read only once
+    by_force->second = stroke_depends_on_force(path);
+  }
   check_plugin_force(scene, path);
   SceneFile named;
   named.stroke = scene.stroke;

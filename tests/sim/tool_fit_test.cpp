@@ -70,7 +70,7 @@ TEST(ToolFit, TheCellsThatItNamesAreSquareAndEnough) {
   for (const auto& [cols, rows, thickness, text] :
        {std::tuple{400, 200, 0.002, "take bed.cells = [600, 300] or more, or a larger tool.thickness"},
         {123, 65, 0.002, "take bed.cells = [246, 130] or more, or a larger tool.thickness"},
-        {400, 200, 1e-6, "needs 3 cells; take a larger tool.thickness"}}) {
+        {400, 200, 1e-6, "needs 3 cells; take a smaller bed.size, or a larger tool.thickness"}}) {
     scene.bed.cols = cols;
     scene.bed.rows = rows;
     scene.bed.width = 1e-3 * cols;

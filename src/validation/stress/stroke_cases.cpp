@@ -105,8 +105,8 @@ StressCase play(const Scene& scene, const Stroke& stroke, std::string name, std:
 /// Runs one stroke with both devices, with and without a force limit. With a limit, the device's force is
 /// bounded at any depth, and hand and mass are a stable linear system: the device stays bounded. Without a
 /// limit, the kinematic device cannot diverge. The dynamic device may, but not down to a metre: there
-/// k_f |F_r| stays below the 2 m / T that sampled drag bears, or nothing moves sideways. A force that overflows
-/// before its limit is refused, too. (Nothing is known of a plugin's force without a limit.)
+/// k_f |F_r| stays below the 2 m / T that sampled drag bears, or nothing moves sideways. A force that
+/// overflows before its limit is refused, too. (Nothing is known of a plugin's force without a limit.)
 void play_extreme(StressReport& report, const ExtremeStroke& extreme, const Model& model,
                   const Stroke& stroke) {
   const double deepest = -stroke.position.back().z();
