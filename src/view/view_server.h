@@ -26,7 +26,7 @@ struct ViewLimits {
   int pages = 8, connections = 32;
   double silence = 5.0;        ///< s, for a request to come
   double page_silence = 60.0;  ///< s, after which a page that answers no ping counts as gone
-  double end = 10.0;           ///< s, for pages to take the newest after the end; a busy browser needs some
+  double end = 30.0;           ///< s, for pages to take the newest after the end; a busy browser needs ten
 };
 
 /// Shows sand while it is shaped, to pages in a browser on this machine. It serves HTTP and WebSocket on the
