@@ -134,8 +134,7 @@ class Fields {
     if (kind == 'O') size = 8;
     if ((failure != std::errc() && kind != 'O') || size > most) refuse();
     if (kind == 'U') size *= 4;
-    NpyField made{field, {StoredType::Kind::real, size, type[0] == '>'}, header_.element_bytes, count, "",
-                  false};
+    NpyField made{field, {StoredType::Kind::real, size, type[0] == '>'}, header_.element_bytes, count, ""};
     header_.element_bytes += size * count;
     if (header_.element_bytes > most) refuse();
     if (is_number(kind, std::string_view(end, type.data() + type.size()), made) && count > 0)
@@ -147,7 +146,8 @@ class Fields {
     const bool is_whole_size = size == 1 || size == 2 || size == 4 || size == 8;
     if (kind == 'f') return size == 2 || size == 4 || size == 8;
     field.type.kind = kind == 'i' ? StoredType::Kind::whole : StoredType::Kind::natural;
-    if (kind == 'i' || kind == 'u' || (kind == 'b' && size == 1)) return is_whole_size;
+    field.is_truth = kind == 'b';
+    if (kind == 'i' || kind == 'u' || (field.is_truth && size == 1)) return is_whole_size;
     if ((kind != 'M' && kind != 'm') || size != 8) return false;
     field.type.kind = StoredType::Kind::whole;
     field.is_date = kind == 'M';

@@ -17,6 +17,7 @@ struct NpyField {
   std::size_t count = 1;   ///< numbers, one after the other
   std::string unit;        ///< of times: "s", "ms", "us", "ns"; empty: no time
   bool is_date = false;    ///< a time since 1970
+  bool is_truth = false;   ///< True or False, as 1 or 0
 };
 
 /// What the header of a .npy file says.

@@ -24,7 +24,8 @@ class NpyMap : public HeightMap {
           "numpy.save('FILE', numpy.squeeze(a))",
           name_, header.shape.size());
     const bool numbers = !header.has_objects && header.fields.size() == 1 &&
-                         header.fields.front().name.empty() && header.fields.front().unit.empty();
+                         header.fields.front().name.empty() && header.fields.front().unit.empty() &&
+                         !header.fields.front().is_truth;
     if (!numbers)
       throw_input_error(
           "{}: holds something else than heights; save numbers: numpy.save('FILE', a.astype(float))", name_);

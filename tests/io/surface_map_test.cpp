@@ -349,6 +349,7 @@ TEST_F(SurfaceMap, DamagedFilesAreRefusedWithTheirPlace) {
       {npy_head("'|O'", "(3, 4)"), {"something else than heights"}},
       {npy_head("[('x', '<f8')]", "(3, 4)"), {"something else than heights"}},
       {npy_head("'<M8[s]'", "(3, 4)"), {"something else than heights"}},
+      {npy_head("'|b1'", "(3, 4)"), {"something else than heights"}},
       {npy_head("'<f8'", "(60000, 60000)"), {"too many"}},
       {tiff.substr(0, 20), {"cannot be read as a TIFF"}},
       {tiff.substr(0, 100), {"cannot be read as a TIFF"}},
