@@ -18,8 +18,10 @@ class OffscreenContext {
 
  protected:
   OffscreenContext() {
-    // With 512-bit vectors llvmpipe of Mesa 22 crashes on multisampled targets. Mesa reads this variable once
-    // per process.
+    // Mesa reads these variables once per process. Its other drivers cannot draw multisampled targets
+    // (softpipe) or crash without a window (zink).
+    setenv("GALLIUM_DRIVER", "llvmpipe", 1);
+    // With 512-bit vectors llvmpipe of Mesa 22 crashes on multisampled targets.
     setenv("LP_NATIVE_VECTOR_WIDTH", "256", 1);
   }
 };

@@ -27,6 +27,21 @@ TEST(CliRender, DrawsEveryViewStyleAndFrame) {
   EXPECT_EQ(run_program({"compare", "a.png", "a.png"}, folder).exit_code, 0);
 }
 
+/// Mesa's other drivers cannot draw these pictures, and one of them crashes.
+TEST(CliRender, DrawsTheSameWhateverDriverTheUserAsksOfMesa) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5"}, folder).exit_code, 0);
+  ASSERT_EQ(run_program({"render", "a.h5", "-o", "a.png"}, folder).exit_code, 0);
+  for (const char* driver : {"softpipe", "zink", "none"}) {
+    Conditions conditions;
+    conditions.in_child = [driver] { setenv("GALLIUM_DRIVER", driver, 1); };
+    const ProgramResult render =
+        run_program({"render", "a.h5", "-o", "b.png", "--overwrite"}, folder, conditions);
+    EXPECT_EQ(render.exit_code, 0) << driver << ": " << render.err;
+    EXPECT_TRUE(read_file(folder / "b.png") == read_file(folder / "a.png")) << driver;
+  }
+}
+
 TEST(CliRender, PicturesOfASceneHaveOneCameraWhateverTheSandDid) {
   const fs::path folder = test_folder();
   ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5"}, folder).exit_code, 0);
