@@ -92,7 +92,8 @@ class EsriGrid : public HeightMap {
  public:
   explicit EsriGrid(const std::filesystem::path& path) : words_(path) {
     read_header();
-    set_size(words_.name(), header("nrows"), header("ncols"));
+    const double cols = header("ncols"), rows = header("nrows");
+    set_size(words_.name(), rows, cols);
     const double x = first_of("cellsize", "dx"), y = first_of("cellsize", "dy");
     if (!(x > 0.0 && y > 0.0))
       throw_input_error("{}: has no cellsize above 0 m; add one to its header", words_.name());
