@@ -69,7 +69,10 @@ void PointerDevice::go_to(Place place) {
     return;
   const bool was_down = last_.pressure > 0.0, is_down = place.pressure > 0.0;
   if (was_down == is_down) {
-    if (place.time < last_.time + closest_samples) return;
+    // The page's clock may be set back behind a message that came late. A switch is not lost for that.
+    const bool too_close = place.time < last_.time + closest_samples;
+    if (too_close && place.switches == last_.switches) return;
+    if (too_close) place.time = last_.time + closest_samples;
   } else {
     place.time = std::max(place.time, last_.time + 2 * closest_samples);
     const std::int64_t before = std::max(last_.time, place.time - sample_interval);

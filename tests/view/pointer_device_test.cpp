@@ -49,10 +49,14 @@ class Hand {
     }
     return now_;
   }
-  void point(double x, double y, double pressure, std::int64_t delay = 0) {
+  void point(double x, double y, double pressure, std::int64_t delay = 0, std::uint32_t switches = 0) {
     const PointerSample sample{1e-6 * static_cast<double>(time_ + page_clock), static_cast<float>(x),
-                               static_cast<float>(y), static_cast<float>(pressure), 0};
+                               static_cast<float>(y), static_cast<float>(pressure), switches};
     device.take({&sample, 1}, clock_.now() + delay);
+  }
+  std::uint32_t switches() {
+    DeviceReading reading;
+    return device.read(1e-9 * static_cast<double>(time_), reading) ? reading.switches : 0;
   }
   Vector3d tip() {
     DeviceReading reading;
@@ -195,6 +199,17 @@ TEST(PointerDevice, AMessageThatIsLateDoesNotMoveItsSamples) {
     uneven.point(0.001 * k - 0.1, 0.0, 0.0, k % 3 == 2 ? 4 * ms : 0);
     EXPECT_LT((even.wait(16 * ms) - uneven.wait(16 * ms)).norm(), 1e-12) << k;
   }
+}
+
+TEST(PointerDevice, ASwitchIsNotLostBehindMessagesThatCameLate) {
+  Hand hand;
+  hand.point(0.01, 0.0, 0.0, 500 * ms);
+  hand.wait(16 * ms);
+  hand.point(0.02, 0.0, 0.0, 500 * ms);
+  hand.wait(16 * ms);
+  hand.point(0.03, 0.0, 0.0, 0, 8);  // in time: it counts as earlier than those before it
+  hand.wait(1000 * ms);
+  EXPECT_EQ(hand.switches(), 8u);
 }
 
 TEST(PageClock, IsThatOfTheFastestMessageLately) {
