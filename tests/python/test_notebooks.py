@@ -24,5 +24,6 @@ def test_a_notebook_runs(path, tmp_path):
     kept = nbformat.read(path, 4)
     assert pictures(kept) > 0 and path.stat().st_size < 250_000
     again = nbformat.read(path, 4)
-    nbclient.NotebookClient(again, timeout=3000, resources={"metadata": {"path": str(tmp_path)}}).execute()
+    nbclient.NotebookClient(again, timeout=3000, startup_timeout=600,  # a busy machine starts kernels slowly
+                            resources={"metadata": {"path": str(tmp_path)}}).execute()
     assert pictures(again) == pictures(kept)
