@@ -5,16 +5,37 @@
 #include <numbers>
 #include <optional>
 
+#include "sand/sand_plane.h"
 #include "tool/tool_surface.h"
 
 namespace sandstroke {
 namespace {
 
-/// A force that goes by the plane of the sand around the tool.
-class PlaneForce : public ToolForce {
+class RftForce : public ToolForce {
  public:
-  explicit PlaneForce(const Scene& scene) {
+  RftForce(const Scene& scene, double cell_size)
+      : sand_(scene.strength), resistive_(tool_surface(scene.tool), cell_size) {
+    resistive_.turn(own_rotation(scene.tool));
+  }
+
+  Wrench feel(const ToolInSand& touch) override {
+    return resistive_.feel(touch.bed, touch.tool.footprint(), touch.tip, touch.motion, sand_);
+  }
+  void lift() override { resistive_.lift(); }
+  void turn(const Eigen::Matrix3d& rotation) override { resistive_.turn(rotation); }
+
+ private:
+  SandStrength sand_;
+  ResistiveForce resistive_;
+};
+
+/// It goes by the plane of the sand around the tool.
+class ArchimedesForce : public ToolForce {
+ public:
+  ArchimedesForce(const Scene& scene, double cell_size)
+      : sand_(scene.strength), elements_(tool_surface(scene.tool), cell_size) {
     if (scene.tool.shape == ToolShape::sphere) sphere_radius_ = scene.tool.radius;
+    elements_.turn(own_rotation(scene.tool));
   }
 
   Wrench feel(const ToolInSand& touch) override {
@@ -24,46 +45,6 @@ class PlaneForce : public ToolForce {
       lift();
       return {};
     }
-    return feel_from(plane, touch);
-  }
-
- protected:
-  virtual Wrench feel_from(const SandPlane& plane, const ToolInSand& touch) = 0;
-
-  std::optional<double> sphere_radius_;  // m
-};
-
-class RftForce : public PlaneForce {
- public:
-  RftForce(const Scene& scene, double cell_size)
-      : PlaneForce(scene), sand_(scene.strength), resistive_(tool_surface(scene.tool), cell_size) {
-    resistive_.turn(own_rotation(scene.tool));
-  }
-
-  void lift() override { resistive_.lift(); }
-  void turn(const Eigen::Matrix3d& rotation) override { resistive_.turn(rotation); }
-
- private:
-  Wrench feel_from(const SandPlane& plane, const ToolInSand& touch) override {
-    return resistive_.feel(touch.tool.footprint(), touch.tip, plane, touch.motion, sand_);
-  }
-
-  SandStrength sand_;
-  ResistiveForce resistive_;
-};
-
-class ArchimedesForce : public PlaneForce {
- public:
-  ArchimedesForce(const Scene& scene, double cell_size)
-      : PlaneForce(scene), sand_(scene.strength), elements_(tool_surface(scene.tool), cell_size) {
-    elements_.turn(own_rotation(scene.tool));
-  }
-
-  void lift() override { sunk_ = 0.0; }
-  void turn(const Eigen::Matrix3d& rotation) override { elements_.turn(rotation); }
-
- private:
-  Wrench feel_from(const SandPlane& plane, const ToolInSand& touch) override {
     constexpr double plate = 0.87574;
     const double yield = sand_.yield_way, per_volume = plate * resistance(sand_);
     sunk_ = std::clamp(sunk_ - touch.motion.z() / yield, 0.0, 1.0);
@@ -76,7 +57,10 @@ class ArchimedesForce : public PlaneForce {
     wrench.stored = 0.5 * yield * wrench.force.z();
     return wrench;
   }
+  void lift() override { sunk_ = 0.0; }
+  void turn(const Eigen::Matrix3d& rotation) override { elements_.turn(rotation); }
 
+ private:
   VolumeBelow volume_in_sand(const Eigen::Vector3d& tip, const SandPlane& plane) const {
     if (!sphere_radius_) return volume_below(elements_, plane.height - tip.z(), plane.slope);
     const double R = *sphere_radius_, depth = std::clamp(plane.height - tip.z(), 0.0, 2.0 * R);
@@ -86,6 +70,7 @@ class ArchimedesForce : public PlaneForce {
   }
 
   SandStrength sand_;
+  std::optional<double> sphere_radius_;  // m
   ToolElements elements_;
   double sunk_ = 0.0;  // yield ways, 0 to 1
 };

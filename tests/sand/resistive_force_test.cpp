@@ -96,7 +96,7 @@ Wrench pushed_in(const ToolSettings& settings, double depth, const SandStrength&
     tool.place(bed, to.x() + off * cell, to.y() + 0.7 * off * cell);
     tool.displace(bed, to.z(), motion, {Deposit::outward});
     tool.read_heights(bed);
-    felt = force.feel(tool.footprint(), to, {0.0}, motion, sand);
+    felt = force.feel(bed, tool.footprint(), to, motion, sand);
   };
   constexpr double step = 2.5e-4;
   const int steps = static_cast<int>(std::lround(depth / step));
@@ -180,15 +180,15 @@ TEST(ResistiveForce, DependsOnTheWayAndNotOnTheTimeItTakes) {
   tool.displace(bed, -0.005, falling, {Deposit::outward});
   tool.read_heights(bed);
   const Vector3d tip(0.0, 0.0, -0.005), way(3e-4, -1e-4, -4e-4);
-  const Vector3d once = coarse.feel(tool.footprint(), tip, {0.0}, way, sand).force;
-  fine.feel(tool.footprint(), tip, {0.0}, 0.5 * way, sand);
-  const Vector3d twice = fine.feel(tool.footprint(), tip, {0.0}, 0.5 * way, sand).force;
+  const Vector3d once = coarse.feel(bed, tool.footprint(), tip, way, sand).force;
+  fine.feel(bed, tool.footprint(), tip, 0.5 * way, sand);
+  const Vector3d twice = fine.feel(bed, tool.footprint(), tip, 0.5 * way, sand).force;
   EXPECT_LT((once - twice).norm(), 1e-12 * once.norm());
   // It holds where the tool rests, and is soon gone where it rises.
-  EXPECT_LT((fine.feel(tool.footprint(), tip, {0.0}, Vector3d::Zero(), sand).force - twice).norm(),
+  EXPECT_LT((fine.feel(bed, tool.footprint(), tip, Vector3d::Zero(), sand).force - twice).norm(),
             1e-12 * twice.norm());
-  fine.feel(tool.footprint(), tip, {0.0}, {0.0, 0.0, 2.0 * sand.yield_way}, sand);
-  EXPECT_LT(fine.feel(tool.footprint(), tip, {0.0}, {0.0, 0.0, 2.0 * sand.yield_way}, sand).force.z(),
+  fine.feel(bed, tool.footprint(), tip, {0.0, 0.0, 2.0 * sand.yield_way}, sand);
+  EXPECT_LT(fine.feel(bed, tool.footprint(), tip, {0.0, 0.0, 2.0 * sand.yield_way}, sand).force.z(),
             0.05 * twice.z());
 }
 
@@ -199,7 +199,7 @@ TEST(ResistiveForce, IsANumberForAWayWhoseSquareIsNone) {
   tool.place(bed, 0.0, 0.0);
   for (const double way : {0.0, 1e-158, 1e-165, 1e-200, 1e-320}) {
     ResistiveForce force(tool_surface(sphere), 0.001);
-    const Wrench felt = force.feel(tool.footprint(), {0.0, 0.0, -0.005}, {0.0}, {way, 0.0, -way}, {});
+    const Wrench felt = force.feel(bed, tool.footprint(), {0.0, 0.0, -0.005}, {way, 0.0, -way}, {});
     EXPECT_LT(felt.force.norm(), 1e-100) << way;
     EXPECT_TRUE(std::isfinite(felt.strength)) << way;
   }
@@ -235,10 +235,10 @@ TEST(ResistiveForce, IsATorqueOnABladeThatTurnsWhereItStands) {
   tool.displace(bed, -depth, falling, {Deposit::outward});
   tool.read_heights(bed);
   const Vector3d tip(0.0, 0.0, -depth);
-  EXPECT_EQ(force.feel(tool.footprint(), tip, {0.0}, Vector3d::Zero(), sand).torque, Vector3d::Zero());
+  EXPECT_EQ(force.feel(bed, tool.footprint(), tip, Vector3d::Zero(), sand).torque, Vector3d::Zero());
   const auto turn = [&](double by) {
     force.turn(Eigen::AngleAxisd(by, Vector3d::UnitZ()).toRotationMatrix());
-    return force.feel(tool.footprint(), tip, {0.0}, Vector3d::Zero(), sand);
+    return force.feel(bed, tool.footprint(), tip, Vector3d::Zero(), sand);
   };
   const Wrench left = turn(angle);
   const double expected = 0.192 * resistance(sand) * depth * depth * 0.04 * 0.04 / 8.0;
