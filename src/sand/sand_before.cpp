@@ -54,19 +54,27 @@ class Covered {
   double tip_height_, slack_, per_cell_;
 };
 
-/// Mean height [m] of the sand from 3/4 to 5/4 of `reach` [m] beyond the edge; NaN: the bed ends before.
+/// Mean height [m] of the sand from 3/4 to 5/4 of `reach` [m] beyond the edge. Where the bed ends before, its
+/// last sand counts. The edge must lie on the bed.
 double height_at_reach(const HeightField& bed, const Vector2d& edge, const Vector2d& outward, double reach) {
   constexpr int samples = 8;
+  const auto height = [&](double far) {
+    const Vector2d at = edge + far * outward;
+    return bed.height_at(at.x(), at.y());
+  };
   double sum = 0.0;
   int count = 0;
   for (int i = 0; i < samples; ++i) {
-    const Vector2d at = edge + reach * (0.75 + 0.5 * (i + 0.5) / samples) * outward;
-    const double height = bed.height_at(at.x(), at.y());
-    if (std::isnan(height)) break;
-    sum += height;
+    const double here = height(reach * (0.75 + 0.5 * (i + 0.5) / samples));
+    if (std::isnan(here)) break;
+    sum += here;
     ++count;
   }
-  return count > 0 ? sum / count : unknown;
+  if (count > 0) return sum / count;
+  double inside = 0.0;
+  for (double step = 0.5 * reach; step > 0.5 * bed.cell_size(); step *= 0.5)
+    if (!std::isnan(height(inside + step))) inside += step;
+  return height(inside);
 }
 
 }  // namespace
@@ -108,10 +116,12 @@ bool SandBefore::look(const HeightField& bed, const ToolFootprint& footprint, co
     // Half a step to where the wedge of the known height comes out: on a heap as steep as the wedge a whole
     // step would swing for ever.
     const auto seen_from = [&](double known) {
-      const double out = height_at_reach(bed, edge, outward, wedge * std::max(known - foot, 0.0));
-      return std::min(std::isnan(out) ? known : 0.5 * (known + out), at_edge);
+      const double reach = wedge * std::max(known - foot, 0.0);
+      return std::min(0.5 * (known + height_at_reach(bed, edge, outward, reach)), at_edge);
     };
-    if (std::isnan(height) || std::isnan(at_edge)) {
+    if (std::isnan(at_edge)) {
+      height = unknown;
+    } else if (std::isnan(height)) {
       constexpr int rounds = 6;
       height = at_edge;
       for (int round = 0; round < rounds; ++round) height = seen_from(height);

@@ -232,7 +232,7 @@ TEST(ResistiveForce, IsATorqueOnABladeThatTurnsWhereItStands) {
   ResistiveForce force(tool_surface(blade), 0.001);
   const SandStrength sand{30.0, 1560.0, 0.0, 1e-6};
   tool.place(bed, 0.0, 0.0);
-  tool.displace(bed, -depth, falling, {Deposit::outward});
+  tool.meet(bed, -depth);
   tool.read_heights(bed);
   const Vector3d tip(0.0, 0.0, -depth);
   EXPECT_EQ(force.feel(bed, tool.footprint(), tip, Vector3d::Zero(), sand).torque, Vector3d::Zero());
