@@ -17,9 +17,9 @@ using Eigen::Vector3d;
 constexpr double level = 1e-6;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// A surface of a few dozen sides of this size [m] has about the area of this one.
+/// A surface of a dozen squares of this size [m] has about the area of this one.
 double side_size(const TriangleMesh& surface) {
-  constexpr double sides = 32.0;
+  constexpr double sides = 12.0;
   double area = 0.0;
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
     const Vector3d a = surface.corner(i, 0);
@@ -57,7 +57,7 @@ class Covered {
 /// Mean height [m] of the sand from 3/4 to 5/4 of `reach` [m] beyond the edge. Where the bed ends before, its
 /// last sand counts. The edge must lie on the bed.
 double height_at_reach(const HeightField& bed, const Vector2d& edge, const Vector2d& outward, double reach) {
-  constexpr int samples = 8;
+  constexpr int samples = 4;
   const auto height = [&](double far) {
     const Vector2d at = edge + far * outward;
     return bed.height_at(at.x(), at.y());
@@ -104,6 +104,9 @@ bool SandBefore::look(const HeightField& bed, const ToolFootprint& footprint, co
                       double foot, const Motion& motion, double wedge) {
   const Covered covered(footprint, tip.z());
   const double cell = bed.cell_size();
+  const auto kept_after = [](const Vector3d& way) { return elementary::exp(-std::sqrt(way.squaredNorm())); };
+  const bool spins = !motion.spin.isZero(0.0);
+  const double kept_by_all = kept_after(motion.tip);
   for (int side = 0; side < sides_.count(); ++side) {
     double& height = known_[side];
     const Vector2d across(sides_.normal_x()[side], sides_.normal_y()[side]);
@@ -121,14 +124,15 @@ bool SandBefore::look(const HeightField& bed, const ToolFootprint& footprint, co
     };
     if (std::isnan(at_edge)) {
       height = unknown;
+    } else if (tip.z() + from_tip.z() - size_ > at_edge) {
+      height = at_edge;  // the whole side is above the sand
     } else if (std::isnan(height)) {
       constexpr int rounds = 6;
       height = at_edge;
       for (int round = 0; round < rounds; ++round) height = seen_from(height);
     } else {
-      const Vector3d way = motion.tip + motion.spin * from_tip;
       const double seen = seen_from(height),
-                   kept = way.isZero(0.0) ? 1.0 : elementary::exp(-std::sqrt(way.squaredNorm()));
+                   kept = spins ? kept_after(motion.tip + motion.spin * from_tip) : kept_by_all;
       height = seen + kept * (height - seen);
     }
   }

@@ -19,7 +19,7 @@ namespace sandstroke {
 /// wedge under level sand, and under sand that falls away at phi it has (1 - sin phi)^2 times the force: as
 /// Coulomb's passive coefficients have, (1 + sin phi) / (1 - sin phi) and cos^2 phi.
 ///
-/// Heights follow the sand over a yield way, as the force does. So sand that slips makes no step.
+/// Heights follow the sand over a yield way, as the force does. So relaxation makes the force no jump.
 class SandBefore {
  public:
   /// Divides the surface (in its own frame, tip at the origin [m]) into some dozens of sides, whatever the
