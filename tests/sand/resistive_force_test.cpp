@@ -143,7 +143,7 @@ TEST(ResistiveForce, IsThatOfTheTableOnASphere) {
       const double plunged = theory_of_sphere(0.01, depths[i], falling, sand).z();
       EXPECT_NEAR(felt.z(), plunged, (i == 0 ? 13.0 : 10.0) * cell * plunged) << depths[i];
       EXPECT_LT(felt.head<2>().norm(), 1e-3 * felt.z());
-      if (i == 4) continue;  // a sphere that is buried shuts the sand off above it
+      if (i == 0) continue;  // its wedge comes out in what it has just put down
       const double dragged = theory_of_sphere(0.01, depths[i], Vector3d::UnitX(), sand).x();
       // Elements that trail by less than 3 degrees count a little: 1.7 % at 2 mm.
       EXPECT_NEAR(pushed_in(sphere, depths[i], sand, cell, cell, {0.006, 0.0, 0.0}).force.x(), dragged,
