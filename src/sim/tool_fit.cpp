@@ -115,8 +115,7 @@ std::string coarse_tool_warning(const Scene& scene, double depth) {
   const std::string finer = cells_for(scene.bed, width, fine);
   return fmt::format(
       "the tool is {:.3g} cells wide at its narrowest: its furrow may be off by up to {:.0f} %, and by "
-      "{:.0f} % "
-      "with ten{}; --estimate-error says more",
+      "{:.0f} % with ten{}; --estimate-error says more",
       cells, 100.0 * expected_furrow_error(scene.tool.shape, cells),
       100.0 * expected_furrow_error(scene.tool.shape, fine), finer.empty() ? "" : ", " + finer);
 }

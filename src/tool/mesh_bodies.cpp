@@ -7,9 +7,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
+#include "core/disjoint_sets.h"
 #include "core/elementary.h"
 #include "core/error.h"
 #include "core/warning.h"
@@ -57,23 +57,23 @@ TriangleMesh part_of(const TriangleMesh& mesh, const std::vector<std::size_t>& t
   return part;
 }
 
+void append(TriangleMesh& mesh, const TriangleMesh& part) {
+  const auto first = static_cast<std::int32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), part.vertices.begin(), part.vertices.end());
+  for (const auto& corners : part.triangles)
+    mesh.triangles.push_back({first + corners[0], first + corners[1], first + corners[2]});
+}
+
 /// The triangles of each body, in the order of their first ones.
 std::vector<std::vector<std::size_t>> parts_of(const TriangleMesh& mesh) {
-  std::vector<std::int32_t> linked(mesh.vertices.size());
-  std::iota(linked.begin(), linked.end(), 0);
-  const auto root = [&](std::int32_t vertex) {
-    auto at = static_cast<std::size_t>(vertex);
-    while (linked[at] != static_cast<std::int32_t>(at))
-      at = static_cast<std::size_t>(linked[at] = linked[static_cast<std::size_t>(linked[at])]);
-    return at;
-  };
+  DisjointSets linked(mesh.vertices.size());
   for (const auto& corners : mesh.triangles)
     for (const std::int32_t other : {corners[1], corners[2]})
-      linked[root(corners[0])] = static_cast<std::int32_t>(root(other));
+      linked.join(static_cast<std::size_t>(corners[0]), static_cast<std::size_t>(other));
   std::vector<std::vector<std::size_t>> parts;
   std::vector<std::size_t> part_at(mesh.vertices.size(), mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    std::size_t& part = part_at[root(mesh.triangles[i][0])];
+    std::size_t& part = part_at[linked.root(static_cast<std::size_t>(mesh.triangles[i][0]))];
     if (part == mesh.triangles.size()) {
       part = parts.size();
       parts.emplace_back();
@@ -125,12 +125,8 @@ void check_apart(const TriangleMesh& mesh, const std::vector<TriangleMesh>& bodi
   TriangleMesh all;  // body after body
   std::vector<std::size_t> body_at;
   for (std::size_t body = 0; body < bodies.size(); ++body) {
-    const auto first = static_cast<std::int32_t>(all.vertices.size());
-    all.vertices.insert(all.vertices.end(), bodies[body].vertices.begin(), bodies[body].vertices.end());
-    for (const auto& corners : bodies[body].triangles) {
-      all.triangles.push_back({first + corners[0], first + corners[1], first + corners[2]});
-      body_at.push_back(body);
-    }
+    append(all, bodies[body]);
+    body_at.resize(all.triangles.size(), body);
   }
   const auto pair = overlapping_triangles(all, touching * box_of(mesh).sizes().maxCoeff());
   if (!pair) return;
@@ -140,15 +136,13 @@ void check_apart(const TriangleMesh& mesh, const std::vector<TriangleMesh>& bodi
   if (one == other)
     throw_input_error(
         "{}: the surface passes through itself near {}; unite its parts, or repair it, in the program that "
-        "made "
-        "the mesh",
+        "made the mesh",
         name, place_text(near));
   const AlignedBox3d box = box_of(bodies[one]), there = box_of(bodies[other]);
   const Vector3d shared = 1e3 * box.intersection(there).sizes();
   throw_input_error(
       "{}: two of its {} bodies overlap or touch, those around {} and {} (their boxes share {:.4g} x {:.4g} "
-      "x "
-      "{:.4g} mm), and what they share would count twice; unite them in the program that made the mesh",
+      "x {:.4g} mm), and what they share would count twice; unite them in the program that made the mesh",
       name, bodies.size(), place_text(box.center()), place_text(there.center()), shared.x(), shared.y(),
       shared.z());
 }
@@ -196,8 +190,7 @@ TriangleMesh with_triangles_once(const TriangleMesh& mesh, const std::string& na
       {WarningCode::tool_mesh,
        fmt::format(
            "{}: {} of its {} triangles lie on others, as in a surface that is there twice or where two parts "
-           "touch; "
-           "each counts once, or not at all inside the tool",
+           "touch; each counts once, or not at all inside the tool",
            name, mesh.triangles.size() - kept.size(), mesh.triangles.size())});
   std::sort(kept.begin(), kept.end());
   return part_of(mesh, kept);
@@ -214,12 +207,9 @@ TriangleMesh outermost_bodies(const TriangleMesh& mesh, const std::string& name)
     if (is_inner[i]) continue;
     const bool inside_out = enclosed_volume(bodies[i]) < 0.0;
     turned_over += inside_out;
-    const auto first = static_cast<std::int32_t>(outer.vertices.size());
-    outer.vertices.insert(outer.vertices.end(), bodies[i].vertices.begin(), bodies[i].vertices.end());
-    for (std::array<std::int32_t, 3> corners : bodies[i].triangles) {
-      if (inside_out) std::swap(corners[1], corners[2]);
-      outer.triangles.push_back({first + corners[0], first + corners[1], first + corners[2]});
-    }
+    if (inside_out)
+      for (std::array<std::int32_t, 3>& corners : bodies[i].triangles) std::swap(corners[1], corners[2]);
+    append(outer, bodies[i]);
   }
   if (inner > 0)
     warn({WarningCode::tool_mesh,

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/disjoint_sets.h"
 #include "tool/tool_surface.h"
 
 namespace sandstroke {
@@ -62,7 +63,7 @@ class Cut {
 
   double narrowest() {
     std::map<std::size_t, std::vector<Vector2d>> outlines;
-    for (std::size_t i = 0; i < points_.size(); ++i) outlines[root(i)].push_back(points_[i]);
+    for (std::size_t i = 0; i < points_.size(); ++i) outlines[outlines_.root(i)].push_back(points_[i]);
     double width = std::numeric_limits<double>::infinity();
     for (auto& [first, outline] : outlines) width = std::min(width, width_between_lines(std::move(outline)));
     // Four areas by the perimeter: the diameter of a circle, the side of a square, and twice the width of a
@@ -86,7 +87,7 @@ class Cut {
       (is_above(from) ? down : up) = point_on(from, to);
     }
     if (crossed == 0) return;
-    of_[root(down)] = root(up);
+    outlines_.join(down, up);
     const Vector2d &a = points_[down], &b = points_[up];
     area_ += 0.5 * cross_of(a - points_.front(), b - points_.front());
     perimeter_ += (b - a).norm();
@@ -100,21 +101,16 @@ class Cut {
                      &b = surface_.vertices[static_cast<std::size_t>(edge.second)];
       const double part = (height_ - a.z()) / (b.z() - a.z());
       points_.emplace_back((a + part * (b - a)).head<2>());
-      of_.push_back(of_.size());
+      outlines_.add();
     }
     return entry->second;
-  }
-
-  std::size_t root(std::size_t i) {
-    while (of_[i] != i) i = of_[i] = of_[of_[i]];
-    return i;
   }
 
   const TriangleMesh& surface_;
   double height_, area_ = 0.0, perimeter_ = 0.0;
   std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> at_;  // the point on an edge
   std::vector<Vector2d> points_;
-  std::vector<std::size_t> of_;  // another point of the same outline; itself: none
+  DisjointSets outlines_;  // of the points
 };
 
 }  // namespace
