@@ -85,9 +85,14 @@ void check_can_be_read_whole(const fs::path& path) {
   }
 }
 
+std::string beginning_of(const fs::path& path, std::size_t most_bytes) {
+  std::string bytes(most_bytes, '\0');
+  bytes.resize(InputFile(path).read(bytes.data(), bytes.size()));
+  return bytes;
+}
+
 bool begins_with(const fs::path& path, std::string_view signature) {
-  std::string begin(signature.size(), '\0');
-  return InputFile(path).read(begin.data(), begin.size()) == begin.size() && begin == signature;
+  return beginning_of(path, signature.size()) == signature;
 }
 
 std::string read_text_file(const fs::path& path, std::size_t most_bytes) {

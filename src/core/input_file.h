@@ -46,6 +46,9 @@ void check_readable(const std::filesystem::path& path);
 /// Reads the whole file once. Error: io, if the disk does not give it back.
 void check_can_be_read_whole(const std::filesystem::path& path);
 
+/// The first bytes of a file, at most so many. Error: io.
+std::string beginning_of(const std::filesystem::path& path, std::size_t most_bytes);
+
 /// Error: io.
 bool begins_with(const std::filesystem::path& path, std::string_view signature);
 

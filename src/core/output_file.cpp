@@ -21,8 +21,7 @@ bool overwrite = false;
 /// True if this program wrote the file as an output of this kind, or if it holds nothing.
 bool is_own(const fs::path& path, const OutputKind& kind) {
   if (!fs::exists(fs::symlink_status(path))) return true;  // somebody may have removed it
-  std::string text(64 * 1024, '\0');
-  text.resize(InputFile(path).read(text.data(), text.size()));
+  const std::string text = beginning_of(path, 64 * 1024);
   if (text.empty()) return true;
   return !kind.begin.empty() && text.starts_with(kind.begin) &&
          (text.find_first_not_of('\0', kind.header) == std::string::npos ||

@@ -61,13 +61,6 @@ constexpr KindNotRead recordings_not_read[] = {
 
 bool has_ending(const fs::path& path, std::string_view ending) { return small_ending(path) == ending; }
 
-/// The beginning of a file, long enough to tell its format.
-std::string head_of(const fs::path& path) {
-  std::string head(1 << 16, '\0');
-  head.resize(InputFile(path).read(head.data(), head.size()));
-  return head;
-}
-
 /// True for binary data, which has several zero bytes in a row. Tables may be in UTF-16, where every other
 /// byte is 0.
 bool is_binary(std::string_view head) {
@@ -152,10 +145,8 @@ void refuse_unused_settings(const fs::path& path, const TableSettings& settings,
 }  // namespace
 
 std::optional<SampleTable> read_known_format(const fs::path& path, const TableSettings& settings) {
-  const bool pipe =
-      path == "-" || (fs::exists(path) && !fs::is_regular_file(path) && !fs::is_directory(path));
-  if (pipe) return {};
-  const std::string head = head_of(path);
+  if (path == "-" || is_pipe(path)) return {};
+  const std::string head = beginning_of(path, 1 << 16);  // long enough to tell its format
   const std::string_view text = without_blanks(without_byte_order_mark(head));
   std::optional<SampleTable> table = read_format(path, settings, head, text);
   if (table) refuse_unused_settings(path, settings, is_gcode(path, text));

@@ -24,9 +24,7 @@ constexpr ArrayWords matlab_words = {
 
 std::vector<NamedArray> arrays_of(const fs::path& path) {
   constexpr std::size_t matlab_header = 512;  // before HDF5 begins
-  std::string head(matlab_header + hdf5_signature.size(), '\0');
-  head.resize(InputFile(path).read(head.data(), head.size()));
-  const std::string_view begin = head;
+  const std::string begin = beginning_of(path, matlab_header + hdf5_signature.size());
   if (begin.starts_with(hdf5_signature) || begin.ends_with(hdf5_signature)) return mat_hdf5_arrays(path);
   if (begin.starts_with("MATLAB 7.3"))
     throw_input_error(

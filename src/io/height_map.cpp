@@ -92,8 +92,7 @@ void HeightMap::set_size(const std::string& name, double rows, double cols) {
 }
 
 std::unique_ptr<HeightMap> open_height_map(const fs::path& path) {
-  std::string head(4096, '\0');
-  head.resize(InputFile(path).read(head.data(), head.size()));
+  const std::string head = beginning_of(path, 4096);
   refuse_kinds(pointer_kinds, path, head);
   const std::string ending = small_ending(path);
   if (head.starts_with(png_signature) || ending == ".png") return open_png_map(path);
