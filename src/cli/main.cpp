@@ -115,7 +115,7 @@ int main(int argc, char** argv) {
   try {
     check_stack();
     ignore_write_signals();
-    share_heap_if_limited();
+    set_up_heap();
     return run_program(argc, argv);
   } catch (const Error& failure) {
     complain(failure.what());

@@ -31,7 +31,7 @@ std::string_view InputFile::next_block() {
   while (true) {
     const ssize_t count = ::read(file_, block_.data(), block_.size());
     if (count >= 0) {
-      block_end_ += static_cast<std::uint64_t>(count);
+      block_begin_ = std::exchange(block_end_, block_end_ + static_cast<std::uint64_t>(count));
       return {block_.data(), static_cast<std::size_t>(count)};
     }
     if (errno != EINTR)
@@ -54,15 +54,14 @@ std::size_t InputFile::read(void* bytes, std::size_t count) {
 }
 
 void InputFile::seek(std::uint64_t byte) {
-  const std::uint64_t begin = block_end_ - rest_.size();
-  if (byte >= begin && byte <= block_end_) {
-    rest_.remove_prefix(byte - begin);
+  if (byte >= block_begin_ && byte <= block_end_) {
+    rest_ = {block_.data() + (byte - block_begin_), block_end_ - byte};
     return;
   }
   if (lseek(file_, static_cast<off_t>(byte), SEEK_SET) < 0)
     throw_io_error("{}: byte {} cannot be reached ({}); take another copy of the file", name_, byte,
                    std::strerror(errno));
-  block_end_ = byte;
+  block_begin_ = block_end_ = byte;
   rest_ = {};
 }
 

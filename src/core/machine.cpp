@@ -121,8 +121,14 @@ void check_disk(const fs::path& path, double bytes, const std::string& remedy) {
                 "the disk has room for");
 }
 
-void share_heap_if_limited() {
-  if (limit_of(RLIMIT_AS) < unlimited) mallopt(M_ARENA_MAX, 1);
+void set_up_heap() {
+  if (limit_of(RLIMIT_AS) < unlimited) {
+    mallopt(M_ARENA_MAX, 1);
+    return;
+  }
+  constexpr int most_kept = 1 << 30;
+  mallopt(M_MMAP_THRESHOLD, most_kept);
+  mallopt(M_TRIM_THRESHOLD, most_kept);
 }
 
 void check_stack() {

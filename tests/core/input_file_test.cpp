@@ -69,6 +69,35 @@ TEST(InputFile, GoesOnAtAnyByte) {
   EXPECT_TRUE(file.next_block().empty());
 }
 
+/// Bytes that this process has read from files so far, as Linux counts them.
+std::size_t bytes_read() {
+  std::ifstream io("/proc/self/io");
+  std::string name;
+  std::size_t count = 0;
+  while (io >> name >> count && name != "rchar:") {
+  }
+  return count;
+}
+
+TEST(InputFile, AByteOfTheSameBlockIsNotReadAgain) {
+  if (!fs::exists("/proc/self/io")) GTEST_SKIP() << "this system does not count what is read";
+  const TestFolder folder;
+  const std::string text = long_text();
+  write_text_file(folder / "file", text);
+  InputFile file(folder / "file");
+  const std::size_t before = bytes_read();
+  // Records in turn, each with a look at the last byte before it.
+  char record[13];
+  for (std::size_t at = 1; at + sizeof record < text.size(); at += sizeof record) {
+    file.seek(at - 1);
+    ASSERT_EQ(file.read(record, 1), 1u);
+    ASSERT_EQ(file.read(record, sizeof record), sizeof record);
+    ASSERT_EQ(std::string_view(record, sizeof record), std::string_view(text).substr(at, sizeof record));
+  }
+  EXPECT_LT(bytes_read() - before,
+            text.size() + 500'000);  // once, and some blocks more where records straddle
+}
+
 TEST(InputFile, WhatTheDiskDoesNotGiveIsAnError) {
   const fs::path damaged = "/proc/self/mem";  // at address 0 there is nothing: reading it is an EIO
   for (const std::string& sentence : {refusal([&] { read_text_file(damaged); }, ErrorKind::io),
