@@ -1,34 +1,16 @@
 #include "core/progress.h"
 
 #include <gtest/gtest.h>
-#include <spdlog/sinks/ostream_sink.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <chrono>
-#include <memory>
-#include <sstream>
 #include <string>
 #include <thread>
 
+#include "kept_log.h"
+
 namespace sandstroke {
 namespace {
-
-/// What goes to the log in the block.
-class KeptLog {
- public:
-  KeptLog() {
-    const auto sink = std::make_shared<spdlog::sinks::ostream_sink_st>(text_);
-    sink->set_pattern("%v");
-    spdlog::set_default_logger(std::make_shared<spdlog::logger>("kept", sink));
-  }
-  ~KeptLog() { spdlog::set_default_logger(before_); }
-  std::string text() const { return text_.str(); }
-
- private:
-  std::shared_ptr<spdlog::logger> before_ = spdlog::default_logger();
-  std::ostringstream text_;
-};
 
 TEST(Progress, IsToldWithoutATerminalOnceItTakesLong) {
   if (isatty(STDERR_FILENO)) GTEST_SKIP() << "the bar is drawn on the terminal";
