@@ -115,7 +115,7 @@ int main(int argc, char** argv) {
   try {
     check_stack();
     ignore_write_signals();
-    set_up_heap();
+    share_heap_if_limited();
     return run_program(argc, argv);
   } catch (const Error& failure) {
     complain(failure.what());

@@ -121,11 +121,12 @@ void check_disk(const fs::path& path, double bytes, const std::string& remedy) {
                 "the disk has room for");
 }
 
-void set_up_heap() {
-  if (limit_of(RLIMIT_AS) < unlimited) {
-    mallopt(M_ARENA_MAX, 1);
-    return;
-  }
+void share_heap_if_limited() {
+  if (limit_of(RLIMIT_AS) < unlimited) mallopt(M_ARENA_MAX, 1);
+}
+
+void keep_freed_memory() {
+  if (limit_of(RLIMIT_AS) < unlimited) return;
   constexpr int most_kept = 1 << 30;
   mallopt(M_MMAP_THRESHOLD, most_kept);
   mallopt(M_TRIM_THRESHOLD, most_kept);

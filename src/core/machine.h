@@ -29,11 +29,14 @@ void check_addresses(double bytes, const std::string& what, const std::string& r
 /// free. Call it before any work.
 void check_disk(const std::filesystem::path& path, double bytes, const std::string& remedy);
 
-/// Keeps freed memory for what comes next, up to 1 GB: the columns of a long table are made and freed in
-/// turn, and pages from the system cost more than what is done with them. If the address space is limited
-/// (ulimit -v), it makes threads share one heap instead: otherwise each reserves 64 MB of it for its own.
-/// Call it before there are threads.
-void set_up_heap();
+/// Makes threads share one heap if the address space is limited (ulimit -v): otherwise each thread reserves
+/// 64 MB of it for its own heap. Call it before there are threads.
+void share_heap_if_limited();
+
+/// From now on the process keeps freed memory for what comes next, up to 1 GB, unless its address space is
+/// limited: for work that makes and frees large arrays in turn, whose pages cost more than what is done with
+/// them.
+void keep_freed_memory();
 
 /// Error: io, if the stack of this process and its threads (ulimit -s) is too small for the libraries.
 void check_stack();

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/input_file.h"
+#include "core/machine.h"
 #include "import/formats.h"
 #include "import/merge_strokes.h"
 #include "import/table_layout.h"
@@ -35,6 +36,10 @@ TableSettings settings_of_second(const TableSettings& settings) {
 
 SampleTable read_samples(const fs::path& path, const TableSettings& settings,
                          const std::optional<Eigen::Matrix3d>& of_first = {}) {
+  constexpr std::uintmax_t many_bytes = 16'000'000;  // whose columns are large arrays
+  std::error_code not_there;
+  if (const auto bytes = fs::file_size(path, not_there); !not_there && bytes > many_bytes)
+    keep_freed_memory();
   if (path != "-")
     if (std::optional<SampleTable> samples = read_known_format(path, settings)) return std::move(*samples);
   if (!settings.pen_down.empty())
