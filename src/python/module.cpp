@@ -128,9 +128,10 @@ py::array picture(const SceneHere& here, const py::object& heights, const py::ob
 
 /// Error: input, where the options of `sandstroke compare` would refuse a number, or runs do not use it.
 void check_tolerances(const GivenTolerances& given) {
-  for (const auto& [name, value] : given) {
+  for (const auto& tolerance : given) {
+    const auto& [name, value] = tolerance;
     const auto* key = std::find_if(tolerance_keys.begin(), tolerance_keys.end(),
-                                   [&](const ToleranceKey& one) { return one.name == name; });
+                                   [&](const ToleranceKey& one) { return one.name == tolerance.first; });
     if (key == tolerance_keys.end() || name.starts_with("pixel"))
       throw_input_error("'{}' is not a tolerance of runs; use height, force or depth", name);
     if (!key->range.contains(value))
