@@ -11,7 +11,9 @@ namespace {
 std::optional<ForceFit> fit_paper(const FeltStroke& felt, const std::vector<bool>& is_free) {
   const std::vector<FeltTick> ticks = felt_ticks(felt);
   if (interrupted()) return std::nullopt;
-  return fit_force(PaperLaw(ticks, felt.scene.force, felt.scene.device.max_force), is_free);
+  return fit_force(
+      PaperLaw(ticks, felt.scene.force, felt.scene.device.max_force, 1.0 / felt.scene.device.servo_rate),
+      is_free);
 }
 
 /// The force is not linear in the constants. The run is played again, with sands around the best values so
