@@ -90,7 +90,8 @@ Interval Confidence::interval(std::size_t constant, double distance) const {
 /// Searches between the best value and the outermost; `open` is the end, 0 or infinity, if that one is not
 /// far enough. Steps grow, guided by the distances so far; then a secant, or else halving, closes in.
 double Confidence::end(std::size_t constant, double outermost, double open, double distance) const {
-  constexpr double first_step = 0.01, longest = 10.0, tolerance = 0.02, least_positive = 1e-12;
+  constexpr double first_step = 0.01, longest = 10.0, tolerance = 0.02, least_positive = 1e-12,
+                   least_step = 1e-6;
   const bool upwards = open > 0.0;
   const double best = std::max(best_[static_cast<Index>(constant)], least_positive);
   const double whole = std::max(0.0, upwards ? std::log(outermost / best) : std::log(best / outermost));
@@ -110,13 +111,13 @@ double Confidence::end(std::size_t constant, double outermost, double open, doub
   for (bool secant = true;; secant = !secant) {
     const double part = secant ? (distance - at_inside) / (at_outside - at_inside) : 0.5;
     const double between = inside + part * (outside - inside);
-    if (between <= inside || between >= outside) break;
+    if (outside - inside < least_step || between <= inside || between >= outside) break;
     const double at = this->distance(constant, value_at(between));
     (at < distance ? inside : outside) = between;
     (at < distance ? at_inside : at_outside) = at;
     if (std::abs(at - distance) <= tolerance * distance) return value_at(between);
   }
-  return value_at(inside);
+  return value_at(outside);
 }
 
 Combination combination_about(const LeastSquares& problem, const std::vector<bool>& asked,

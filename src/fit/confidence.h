@@ -25,7 +25,7 @@ class Confidence {
   /// summed over ticks. Of the true value it is distributed as Student's t (SlowWaves).
   double distance(std::size_t constant, double value) const;
 
-  /// The values of a free constant up to that distance, to 2 % of it.
+  /// The values of a free constant up to that distance, to 2 % of it or 1e-6 of the value.
   Interval interval(std::size_t constant, double distance) const;
 
  private:
