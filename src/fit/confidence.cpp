@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/elementary.h"
 
@@ -70,9 +71,14 @@ Confidence::Confidence(const LeastSquares& problem, VectorXd best)
 double Confidence::distance(std::size_t constant, double value) const {
   LeastSquares others = problem_;
   others.is_free[constant] = false;
-  const VectorXd rival = others.solved(problem_.law.with(best_, constant, value));
+  VectorXd from = problem_.law.with(best_, constant, value);
+  for (std::size_t i = 0; i < others.is_free.size(); ++i)
+    if (i != constant && !others.is_free[i]) from[static_cast<Index>(i)] = best_[static_cast<Index>(i)];
+  const VectorXd rival = others.solved(from);
   const Eigen::Matrix3Xd change = problem_.law.forces(rival, DeviceLimit::applied) - force_;
   const double farther = change.cwiseProduct(change + left_).sum();
+  if (!std::isfinite(farther))
+    return std::numeric_limits<double>::infinity();  // no number holds such a force
   return farther > 0.0 ? farther / waves_.error_of_sum(change, left_) : 0.0;
 }
 
@@ -90,34 +96,45 @@ Interval Confidence::interval(std::size_t constant, double distance) const {
 /// Searches between the best value and the outermost; `open` is the end, 0 or infinity, if that one is not
 /// far enough. Steps grow, guided by the distances so far; then a secant, or else halving, closes in.
 double Confidence::end(std::size_t constant, double outermost, double open, double distance) const {
-  constexpr double first_step = 0.01, longest = 10.0, tolerance = 0.02, least_positive = 1e-12,
-                   least_step = 1e-6;
+  constexpr double first_step = 0.01, longest = 10.0, shortest = 1.5, tolerance = 0.02, least_step = 1e-6;
   const bool upwards = open > 0.0;
-  const double best = std::max(best_[static_cast<Index>(constant)], least_positive);
-  const double whole = std::max(0.0, upwards ? std::log(outermost / best) : std::log(best / outermost));
+  const double best = std::max(best_[static_cast<Index>(constant)], std::numeric_limits<double>::min());
+  const double whole = upwards ? std::log(outermost / best) : std::log(best / outermost);
+  if (!(whole > 0.0)) return open;  // the best value stands for it
+  struct Point {
+    double step, distance;
+  };
   const auto value_at = [&](double step) { return best * elementary::exp(upwards ? step : -step); };
-  double inside = 0.0, outside = first_step, at_inside = 0.0, at_outside = 0.0;
-  for (;;) {
-    outside = std::min(outside, whole);
-    at_outside = this->distance(constant, value_at(outside));
-    if (at_outside >= distance) break;
-    if (outside == whole) return open;
+  const auto at = [&](double step) { return Point{step, this->distance(constant, value_at(step))}; };
+  // Where sand ceases to slide along a tool, more friction may fit again.
+  const auto fits_again = [&](double step) -> std::optional<Point> {
+    while (step < whole) {
+      step = std::min(2.0 * step, whole);
+      if (const Point beyond = at(step); beyond.distance < distance) return beyond;
+    }
+    return std::nullopt;
+  };
+  Point inside{0.0, 0.0}, outside{};
+  for (double step = first_step;;) {
+    outside = at(std::min(step, whole));
+    if (outside.distance >= distance) {
+      const std::optional<Point> again = fits_again(outside.step);
+      if (!again) break;
+      outside = *again;
+    }
+    if (outside.step == whole) return open;
     inside = outside;
-    at_inside = at_outside;
-    const double wanted = (1.0 + 0.5 * tolerance) * distance;
-    outside *= std::clamp(at_outside > 0.0 ? wanted / at_outside : longest, 1.5, longest);
+    const double wanted = (1.0 + 0.5 * tolerance) * distance / std::max(inside.distance, distance / longest);
+    step = inside.step * std::clamp(wanted, shortest, longest);
   }
-  if (at_outside <= (1.0 + tolerance) * distance) return value_at(outside);
-  for (bool secant = true;; secant = !secant) {
-    const double part = secant ? (distance - at_inside) / (at_outside - at_inside) : 0.5;
-    const double between = inside + part * (outside - inside);
-    if (outside - inside < least_step || between <= inside || between >= outside) break;
-    const double at = this->distance(constant, value_at(between));
-    (at < distance ? inside : outside) = between;
-    (at < distance ? at_inside : at_outside) = at;
-    if (std::abs(at - distance) <= tolerance * distance) return value_at(between);
+  bool secant = true;
+  while (outside.distance > (1.0 + tolerance) * distance && outside.step - inside.step > least_step) {
+    const double part = secant ? (distance - inside.distance) / (outside.distance - inside.distance) : 0.5;
+    secant = !secant;
+    const Point between = at(inside.step + part * (outside.step - inside.step));
+    (between.distance < distance ? inside : outside) = between;
   }
-  return value_at(outside);
+  return value_at(outside.step);
 }
 
 Combination combination_about(const LeastSquares& problem, const std::vector<bool>& asked,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 
@@ -81,8 +82,9 @@ void find_constants(LeastSquares& problem, ForceFit& fit) {
     FittedConstant one{law.constants()[constant], i, fit.values[i],
                        half(confidence.interval(constant, SlowWaves::within_68)),
                        confidence.interval(constant, SlowWaves::within_95)};
-    const double scenes = law.start()[i];
-    one.kept = constant != 0 && !one.determined() && one.likely.contains(scenes);  // 0 carries the scale
+    one.kept = constant != 0 && !one.determined() &&  // 0 carries the scale
+               confidence.distance(constant, law.start()[i]) <= SlowWaves::within_999;
+    if (one.kept) one.error = std::numeric_limits<double>::infinity();
     problem.is_free[constant] = !one.kept;
     fit.constants.push_back(one);
   }

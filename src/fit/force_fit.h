@@ -13,7 +13,7 @@ struct FittedConstant {
   ForceConstant constant;
   Eigen::Index index;  ///< of the constant in its law
   double value = 0.0;
-  double error = 0.0;    ///< half of the 68 % interval, with the other asked constants free
+  double error = 0.0;    ///< half of the 68 % interval, with the other asked constants free; infinite if kept
   Interval likely;       ///< the 95 % interval, with the other asked constants free
   bool kept = false;     ///< value: the scene's, which the recording does not contradict
   double given_error{};  ///< as error, with the kept constants at their values; 0: not told
@@ -50,8 +50,8 @@ std::vector<bool> chosen_constants(std::span<const ForceConstant> constants,
 ///
 /// Intervals are profiles (Confidence) that cover white noise and noise that lasts. A constant is determined
 /// if its 95 % interval, with the others free, is within half and twice its value. One that is not keeps the
-/// start's value where this lies in the interval, and the others are fitted given that value. The first
-/// constant never does, because the scale would be lost.
+/// start's value, unless the recording contradicts that (beyond the 99.9 % interval), and the others are
+/// fitted given that value. The first constant never does, because the scale would be lost.
 ///
 /// Error: input, if all recorded forces are 0, or fewer than a hundred ticks have a force that the limit does
 /// not cut.

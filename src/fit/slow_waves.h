@@ -12,8 +12,8 @@ namespace sandstroke {
 class SlowWaves {
  public:
   static constexpr Eigen::Index count = 8;
-  /// Student's t with so many degrees of freedom lies within these in 68 and 95 % of cases.
-  static constexpr double within_68 = 1.0602, within_95 = 2.3060;
+  /// Student's t with so many degrees of freedom lies within these in 68, 95 and 99.9 % of cases.
+  static constexpr double within_68 = 1.0602, within_95 = 2.3060, within_999 = 5.0413;
 
   /// fitted: how the force grows with each number that was fitted, a column for each; rows: all components of
   /// all ticks.
