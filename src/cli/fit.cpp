@@ -211,12 +211,10 @@ void add_fit_command(CLI::App& app, Command& chosen) {
       "\n"
       "fit plays the stroke through the scene's sand. Depths count from the sand under the tool, which lies\n"
       "lower in the tool's own furrow. fit compares the model's force with the recorded one by least\n"
-      "squares. The value +- its error is a 68 % interval, with the other constants free; intervals allow "
-      "for\n"
-      "noise that lasts. A constant is determined if its 95 % interval lies within half and twice its "
-      "value.\n"
-      "If it is not, and the scene's value lies in the interval, it stays, and others are told given that "
-      "value.\n"
+      "squares. A value +- its error is a 68 % interval, with the other constants free. Intervals allow for\n"
+      "noise that stays alike from tick to tick. A constant is determined if its 95 % interval lies between\n"
+      "half and twice its value. One that is not stays at the scene's value, unless the recording\n"
+      "contradicts that, and the others are told given that value.\n"
       "Example:  sandstroke fit strokes/wscg/scene.toml --stroke tracing.h5 --set stroke.depth=0.004",
       constants_text()));
   command->callback([arguments, &chosen] { chosen = [arguments] { return fit(*arguments); }; });
