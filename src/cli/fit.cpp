@@ -30,7 +30,7 @@ constexpr double most_of_it = 0.5;  // fraction of the recorded force; below it 
 
 bool explains(const ForceFit& fit) { return fit.explained >= most_of_it; }
 
-/// NaN and infinity become null in JSON.
+/// NaN and infinity become null in JSON. A limit that is null: the recording sets none.
 nlohmann::ordered_json as_json(const ForceFit& fit) {
   nlohmann::ordered_json json = {{"ticks", fit.ticks},
                                  {"recorded_rms", fit.recorded_rms},
@@ -58,9 +58,20 @@ nlohmann::ordered_json as_json(const ForceFit& fit) {
   return json;
 }
 
+std::string with_unit(std::string number, const char* unit) { return *unit ? number + ' ' + unit : number; }
+
 /// Writes a value and its error, with units.
 std::string value_text(double value, double error, const char* unit) {
-  return fmt::format("{:.4g} +- {:.2g} {}", value, error, unit);
+  return with_unit(fmt::format(std::isnan(error) ? "{:.4g} (given)" : "{:.4g} +- {:.2g}", value, error),
+                   unit);
+}
+
+std::string likely_text(const Interval& likely) {
+  const bool has_low = likely.low > 0.0, has_high = std::isfinite(likely.high);
+  if (has_low && has_high) return fmt::format("95 %: {:.4g} to {:.4g}", likely.low, likely.high);
+  if (has_low) return fmt::format("95 %: above {:.4g}", likely.low);
+  if (has_high) return fmt::format("95 %: below {:.4g}", likely.high);
+  return "95 %: any value";
 }
 
 /// The kept constants, as in "given k_c = 0.5 1/m".
@@ -68,19 +79,19 @@ std::string given_text(const ForceFit& fit) {
   std::vector<std::string> kept;
   for (const FittedConstant& one : fit.constants)
     if (one.kept)
-      kept.push_back(fmt::format("{} = {:.4g} {}", one.constant.name, one.value, one.constant.unit));
+      kept.push_back(with_unit(fmt::format("{} = {:.4g}", one.constant.name, one.value), one.constant.unit));
   return fmt::format("given {}", fmt::join(kept, ", "));
 }
 
 std::string text_of(const FittedConstant& one, const ForceFit& fit) {
   const char* const unit = one.constant.unit;
-  const std::string likely = fmt::format("95 %: {:.4g} to {:.4g}", one.likely.low, one.likely.high);
+  const std::string likely = likely_text(one.likely), value = fmt::format("{:.4g}", one.value);
   if (one.determined()) return value_text(one.value, one.error, unit) + " (" + likely + ")";
   const std::string unknown = ": the recording alone does not determine it (" + likely + ")";
-  if (one.kept) return fmt::format("{:.4g} {} (from the scene)", one.value, unit) + unknown;
+  if (one.kept) return with_unit(value, unit) + " (from the scene)" + unknown;
   if (one.given_error > 0.0)
     return value_text(one.value, one.given_error, unit) + ", " + given_text(fit) + unknown;
-  return fmt::format("{:.4g} {}", one.value, unit) + unknown;
+  return with_unit(value, unit) + unknown;
 }
 
 /// The combination that is determined, such as "resistance (tool_friction / 0.4)^0.31".
@@ -93,7 +104,7 @@ std::string combination_text(const ForceFit& fit) {
 }
 
 std::string noise_text(const ForceFit& fit) {
-  if (fit.noise_length == 0.0) return "differs from tick to tick";
+  if (fit.noise_length == 0.0) return "differs from one tick to the next";
   return fmt::format("stays alike for {:.2g} s, which the errors allow for if the recording is much longer",
                      fit.noise_length);
 }
@@ -211,10 +222,11 @@ void add_fit_command(CLI::App& app, Command& chosen) {
       "\n"
       "fit plays the stroke through the scene's sand. Depths count from the sand under the tool, which lies\n"
       "lower in the tool's own furrow. fit compares the model's force with the recorded one by least\n"
-      "squares. A value +- its error is a 68 % interval, with the other constants free. Intervals allow for\n"
-      "noise that stays alike from tick to tick. A constant is determined if its 95 % interval lies between\n"
-      "half and twice its value. One that is not stays at the scene's value, unless the recording\n"
-      "contradicts that, and the others are told given that value.\n"
+      "squares. +- is half of the 68 % interval, with the other fitted constants free. Intervals allow for\n"
+      "noise that stays alike for much less than the recording. A constant is determined if the force\n"
+      "depends on it and its 95 % interval lies between half and twice its value. One that is not stays at\n"
+      "the scene's value, unless the recording contradicts that. Those after 'given' hold for that value.\n"
+      "k_s and friction_angle never stay.\n"
       "Example:  sandstroke fit strokes/wscg/scene.toml --stroke tracing.h5 --set stroke.depth=0.004",
       constants_text()));
   command->callback([arguments, &chosen] { chosen = [arguments] { return fit(*arguments); }; });

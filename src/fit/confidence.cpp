@@ -25,13 +25,14 @@ VectorXd beside(const MatrixXd& others, const VectorXd& force) {
 MatrixXd growth_of_force(const FeltLaw& law, const VectorXd& values) {
   constexpr double step = 1e-4;
   const VectorXd numbers = law.numbers(values);
-  const Eigen::Matrix3Xd force = law.forces(values, DeviceLimit::applied);
-  MatrixXd growth(force.size(), numbers.size());
-  for (Index i = 0; i < numbers.size(); ++i) {
-    VectorXd larger = numbers;
-    larger[i] *= 1.0 + step;
-    growth.col(i) = (law.forces(law.values(larger), DeviceLimit::applied) - force).reshaped() / step;
-  }
+  const auto forces_of = [&](Index i, double factor) {
+    VectorXd changed = numbers;
+    changed[i] *= factor;
+    return law.forces(law.values(changed), DeviceLimit::applied);
+  };
+  MatrixXd growth(law.recorded().size(), numbers.size());
+  for (Index i = 0; i < numbers.size(); ++i)  // on both sides: the force may bend just there
+    growth.col(i) = (forces_of(i, 1.0 + step) - forces_of(i, 1.0 - step)).reshaped() / (2.0 * step);
   return growth;
 }
 
@@ -84,9 +85,10 @@ double Confidence::distance(std::size_t constant, double value) const {
 
 Interval Confidence::interval(std::size_t constant, double distance) const {
   constexpr double beyond = 1e4;  // times any value that was thought of
+  constexpr double small = 1e-2;  // in the constant's unit, where these are all 0
   const auto i = static_cast<Index>(constant);
   const auto [least, most] = problem_.law.range(constant);
-  const double start = problem_.law.start()[i], larger = std::max({best_[i], start, least});
+  const double start = problem_.law.start()[i], larger = std::max({best_[i], start, least, small});
   // A fit may end at a value that is as good as 0.
   const double smaller = std::max(std::min(best_[i], start), larger / (beyond * beyond));
   return {end(constant, std::max(least, smaller / beyond), 0.0, distance),
@@ -147,7 +149,7 @@ Combination combination_about(const LeastSquares& problem, const std::vector<boo
   for (std::size_t i = 1; i < asked.size(); ++i)
     if (asked[i] && !problem.is_free[i]) {
       const auto kept = static_cast<Index>(i);
-      powers[kept] = 0.01 * std::round(100.0 * solver.solve(growth.col(kept))[0]);
+      powers[kept] = 0.01 * std::round(100.0 * solver.solve(growth.col(kept))[0]) + 0.0;  // no -0
     }
   return with_powers(problem, asked, values, growth, powers);
 }

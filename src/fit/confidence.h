@@ -22,7 +22,7 @@ class Confidence {
 
   /// How many standard errors this value of a free constant, with the other free ones fitted anew, is from
   /// the best: D (D + r) / error of D r, where r is what the best force leaves and D the change of the force,
-  /// summed over ticks. Of the true value it is distributed as Student's t (SlowWaves).
+  /// summed over ticks. Of the true value it is distributed as the size of Student's t (SlowWaves).
   double distance(std::size_t constant, double value) const;
 
   /// The values of a free constant up to that distance, to 2 % of it or 1e-6 of the value.

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/interrupt.h"
 
 namespace sandstroke {
 namespace {
@@ -51,6 +52,38 @@ void check_limit(const FeltLaw& law, const VectorXd& values) {
         law.max_force(), cut, felt);
 }
 
+/// What all asked constants together say. Keeps the scene's value of a constant that the recording neither
+/// determines nor contradicts.
+void find_constants(LeastSquares& problem, ForceFit& fit) {
+  const FeltLaw& law = problem.law;
+  const std::vector<bool> asked = problem.is_free;
+  fit.values = problem.best();
+  check_limit(law, fit.values);
+  const Confidence confidence(problem, fit.values);
+  for (std::size_t constant = 0; constant < asked.size(); ++constant) {
+    if (!asked[constant]) continue;
+    if (interrupted()) return;
+    const auto i = static_cast<Eigen::Index>(constant);
+    FittedConstant one{law.constants()[constant], i, fit.values[i],
+                       half(confidence.interval(constant, SlowWaves::within_68)),
+                       confidence.interval(constant, SlowWaves::within_95)};
+    one.kept = constant != 0 && !one.determined() &&  // 0 carries the scale
+               confidence.distance(constant, law.start()[i]) <= SlowWaves::within_999;
+    if (one.kept) one.error = std::numeric_limits<double>::infinity();
+    problem.is_free[constant] = !one.kept;
+    fit.constants.push_back(one);
+  }
+  if (problem.is_free == asked) return;
+  fit.values = problem.best();
+  const Confidence given(problem, fit.values);
+  for (FittedConstant& one : fit.constants) {
+    if (interrupted()) return;
+    one.value = fit.values[one.index];
+    if (!one.kept && !one.determined())
+      one.given_error = half(given.interval(static_cast<std::size_t>(one.index), SlowWaves::within_68));
+  }
+}
+
 }  // namespace
 
 std::vector<bool> chosen_constants(std::span<const ForceConstant> constants,
@@ -69,49 +102,27 @@ std::vector<bool> chosen_constants(std::span<const ForceConstant> constants,
   return chosen;
 }
 
-/// What all asked constants together say. Keeps the scene's value of a constant that the recording neither
-/// determines nor contradicts.
-void find_constants(LeastSquares& problem, ForceFit& fit) {
-  const FeltLaw& law = problem.law;
-  const std::vector<bool> asked = problem.is_free;
-  fit.values = problem.best();
-  const Confidence confidence(problem, fit.values);
-  for (std::size_t constant = 0; constant < asked.size(); ++constant) {
-    if (!asked[constant]) continue;
-    const auto i = static_cast<Eigen::Index>(constant);
-    FittedConstant one{law.constants()[constant], i, fit.values[i],
-                       half(confidence.interval(constant, SlowWaves::within_68)),
-                       confidence.interval(constant, SlowWaves::within_95)};
-    one.kept = constant != 0 && !one.determined() &&  // 0 carries the scale
-               confidence.distance(constant, law.start()[i]) <= SlowWaves::within_999;
-    if (one.kept) one.error = std::numeric_limits<double>::infinity();
-    problem.is_free[constant] = !one.kept;
-    fit.constants.push_back(one);
-  }
-  if (problem.is_free == asked) return;
-  fit.values = problem.best();
-  const Confidence given(problem, fit.values);
-  for (FittedConstant& one : fit.constants) {
-    one.value = fit.values[one.index];
-    if (!one.kept && !one.determined())
-      one.given_error = half(given.interval(static_cast<std::size_t>(one.index), SlowWaves::within_68));
-  }
-}
-
 ForceFit fit_force(const FeltLaw& law, const std::vector<bool>& asked) {
   check_enough(law);
   LeastSquares problem{law, law.recorded(), asked};
   ForceFit fit;
   fit.recorded_rms = rms(problem.recorded);
   find_constants(problem, fit);
+  if (interrupted()) return fit;
   check_limit(law, fit.values);
   // A smaller change of the force [N] is not noticed.
   const double least_seen = std::max(0.01 * problem.residual(fit.values), 1e-6 * fit.recorded_rms);
   for (FittedConstant& one : fit.constants)
     one.acts = difference_rms(law, fit.values, without(fit.values, one.index)) > least_seen;
   fit.of_scale = law.scale();
-  fit.scale = scale_about(problem, asked, fit.values);
-  fit.combination = combination_about(problem, asked, fit.values);
+  if (asked[0]) {
+    fit.scale = scale_about(problem, asked, fit.values);
+    fit.combination = combination_about(problem, asked, fit.values);
+  } else {
+    fit.combination.powers = VectorXd::Zero(fit.values.size());
+    fit.scale.value = law.numbers(fit.values)[0];
+    fit.scale.error = std::numeric_limits<double>::quiet_NaN();
+  }
   const Eigen::Matrix3Xd left = law.forces(fit.values, DeviceLimit::applied) - problem.recorded;
   const double ticks_apart = static_cast<double>(law.ticks()) / static_cast<double>(left.cols());
   fit.noise_length = static_cast<double>(correlation_length(left)) * ticks_apart * law.period();

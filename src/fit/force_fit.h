@@ -11,16 +11,17 @@ namespace sandstroke {
 /// The result of the fit for one constant.
 struct FittedConstant {
   ForceConstant constant;
-  Eigen::Index index;  ///< of the constant in its law
+  Eigen::Index index = 0;  ///< of the constant in its law
   double value = 0.0;
-  double error = 0.0;    ///< half of the 68 % interval, with the other asked constants free; infinite if kept
-  Interval likely;       ///< the 95 % interval, with the other asked constants free
-  bool kept = false;     ///< value: the scene's, which the recording does not contradict
-  double given_error{};  ///< as error, with the kept constants at their values; 0: not told
-  bool acts = true;      ///< without it the force would change by over a hundredth of what the fit leaves
+  double error = 0.0;  ///< half of the 68 % interval, with the other asked constants free; infinite if kept
+  Interval likely;     ///< the 95 % interval, with the other asked constants free
+  bool kept = false;   ///< value: the scene's, which the recording does not contradict
+  double given_error = 0.0;  ///< as error, with the kept constants at their values; 0: not told
+  bool acts = true;          ///< without it the force would change by over a hundredth of what the fit leaves
 
-  /// True if the recording determines it, whatever the other asked constants are.
-  bool determined() const { return acts && likely.low >= 0.5 * value && likely.high <= 2.0 * value; }
+  /// True if the recording determines it, whatever the other asked constants are. The value is the last
+  /// fit's.
+  bool determined() const { return acts && !kept && likely.low >= 0.5 * value && likely.high <= 2.0 * value; }
 };
 
 /// The force constants that come nearest to a recorded force.
@@ -28,10 +29,10 @@ struct ForceFit {
   Eigen::VectorXd values;                 ///< all constants' of the law
   std::vector<FittedConstant> constants;  ///< those that were asked for
   ForceScale of_scale;
-  Combination scale;        ///< its best value, whether or not constants are kept
+  Combination scale;        ///< its best value if all asked constants are free; error: NaN if it is given
   Combination combination;  ///< without powers it is the scale
   double noise_length =
-      0.0;  ///< s, how long what is left stays alike (correlation above 1/e); 0: below a tick
+      0.0;  ///< s, how long what is left stays alike (correlation above 1/e); 0: neighbours differ
   std::int64_t ticks = 0;
   double recorded_rms = 0.0;  ///< N, of the recorded force
   double start_residual = 0.0,
@@ -53,6 +54,7 @@ std::vector<bool> chosen_constants(std::span<const ForceConstant> constants,
 /// start's value, unless the recording contradicts that (beyond the 99.9 % interval), and the others are
 /// fitted given that value. The first constant never does, because the scale would be lost.
 ///
+/// If interrupted(), the result is not complete.
 /// Error: input, if all recorded forces are 0, or fewer than a hundred ticks have a force that the limit does
 /// not cut.
 /// asked: which of law.constants() to fit.

@@ -9,8 +9,11 @@
 namespace sandstroke {
 
 SlowWaves::SlowWaves(const Eigen::MatrixXd& fitted) : waves_(fitted.rows() / 3, count) {
-  const auto solver = fitted.colPivHouseholderQr();
-  fitted_ = solver.householderQ() * Eigen::MatrixXd::Identity(fitted.rows(), solver.rank());
+  fitted_.resize(fitted.rows(), 0);
+  if (fitted.cols() > 0) {
+    const auto solver = fitted.colPivHouseholderQr();
+    fitted_ = solver.householderQ() * Eigen::MatrixXd::Identity(fitted.rows(), solver.rank());
+  }
   for (Eigen::Index k = 0; k < count; ++k)
     for (Eigen::Index i = 0; i < waves_.rows(); ++i)
       waves_(i, k) = elementary::cos(std::numbers::pi * static_cast<double>(k + 1) *
@@ -21,8 +24,10 @@ double SlowWaves::error_of_sum(const Eigen::Matrix3Xd& direction, const Eigen::M
   double squares = 0.0;
   for (const auto& wave : waves_.colwise()) {
     const Eigen::VectorXd along = (direction * wave.asDiagonal()).reshaped();
-    const double sum = along.dot(noise.reshaped()), taken = (fitted_.transpose() * along).squaredNorm();
-    if (sum != 0.0) squares += sum * sum / (along.squaredNorm() - taken);
+    const double sum = along.dot(noise.reshaped()), all = along.squaredNorm(),
+                 left = all - (fitted_.transpose() * along).squaredNorm();
+    constexpr double rounding = 1e-12;
+    if (left > rounding * all) squares += sum * sum / left;
   }
   return std::sqrt(direction.squaredNorm() * squares / count);
 }

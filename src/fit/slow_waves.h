@@ -28,8 +28,8 @@ class SlowWaves {
   Eigen::MatrixXd waves_;   // a column for each
 };
 
-/// How many elements apart the columns of `noise` are no longer alike: their correlation falls below 1/e.
-/// 0: neighbours already are not.
+/// How many columns apart the columns of `noise` are still alike: their correlation is above 1/e. 0: not even
+/// neighbours are.
 Eigen::Index correlation_length(const Eigen::Matrix3Xd& noise);
 
 }  // namespace sandstroke

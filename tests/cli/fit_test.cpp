@@ -89,7 +89,8 @@ TEST(CliFit, TellsTheProductWhereTheConstantsAreNotDetermined) {
   EXPECT_LT(fit["stiffness_error"], 10.0);
   const ProgramResult table = run_program(fit_noisy, folder);
   EXPECT_NE(table.out.find("given k_c = 0.5 1/m"), std::string::npos) << table.out;
-  EXPECT_NE(table.out.find("what is left       differs from tick to tick"), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("what is left       differs from one tick to the next"), std::string::npos)
+      << table.out;
 }
 
 const std::vector<std::string> rft = {"--set", "force.law=rft", "--set", "tool.profile=sphere"};

@@ -111,6 +111,30 @@ TEST(ForceFit, SaysThatAForceInShallowSandTellsOnlyTheProduct) {
   EXPECT_LT(fit.stiffness_error, 10.0);
 }
 
+TEST(ForceFit, KeepsTheOnlyConstantThatWasAskedForIfItIsNotDetermined) {
+  const ForceSettings paper;
+  ForceSettings start = paper;
+  start.k_c = 0.6;
+  start.k_s = paper.k_s * paper.k_c / start.k_c;
+  const PaperFit fit = fit_force(felt(paper, 0.001, 0.004, 0.05), start, no_limit, {"k_c"});
+  EXPECT_TRUE(fit.constants[0].kept || fit.constants[0].determined());
+}
+
+TEST(ForceFit, LimitsAConstantThatIsNothing) {
+  ForceSettings sand = truth;
+  sand.k_f = 0.0;
+  const PaperFit fit = fit_force(felt(sand, 0.001, 0.05, 1.0, 4000), sand, no_limit, all);
+  EXPECT_EQ(fit.constants[2].likely.low, 0.0);
+  EXPECT_LT(fit.constants[2].likely.high, 1.0);
+}
+
+TEST(FittedConstant, OneThatIsKeptIsNotDetermined) {
+  FittedConstant one{paper_constants[2], 2, 0.75, 0.2, {0.4, 1.4}};
+  EXPECT_TRUE(one.determined());
+  one.kept = true;
+  EXPECT_FALSE(one.determined());
+}
+
 /// All of it is at the device's limit: any sand that is hard enough gives it.
 TEST(ForceFit, AForceThatTheLimitCutsEverywhereTellsNothing) {
   const std::vector<FeltTick> ticks =
