@@ -29,7 +29,7 @@ class InputFile {
   std::string name_;
   int file_ = -1;
   std::vector<char> block_;
-  std::uint64_t block_begin_ = 0, block_end_ = 0;  // where it lies in the file
+  std::uint64_t block_begin_ = 0, block_end_ = 0;  // where the block lies in the file
   std::string_view rest_;                          // the part of the block that was not given out yet
 };
 

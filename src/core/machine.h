@@ -34,8 +34,8 @@ void check_disk(const std::filesystem::path& path, double bytes, const std::stri
 void share_heap_if_limited();
 
 /// From now on the process keeps freed memory for what comes next, up to 1 GB, unless its address space is
-/// limited: for work that makes and frees large arrays in turn, whose pages cost more than what is done with
-/// them.
+/// limited: for work that makes and frees large arrays in turn. To get their pages from the system takes
+/// longer than the work.
 void keep_freed_memory();
 
 /// Error: io, if the stack of this process and its threads (ulimit -s) is too small for the libraries.

@@ -15,11 +15,12 @@ class RunProgress : public SimulationObserver {
     bar_.update(fraction);
   }
   void on_pass(std::int64_t passes, const BedNow&) override {
-    constexpr std::int64_t long_while = 256;  // a tick may relax in two passes, or in a million
+    // A tick may take two passes or a million; a look at the clock takes longer than a pass over few cells.
+    constexpr std::int64_t passes_between_looks = 256;
     const bool after_the_stroke = fraction_ == 0.0 || fraction_ == 1.0;
     if (after_the_stroke)
       bar_.count(passes, "relaxation passes");
-    else if (passes % long_while == 0)
+    else if (passes % passes_between_looks == 0)
       bar_.update(fraction_);
   }
 

@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <stdexcept>
+#include <string>
 
 #include "kept_log.h"
 
@@ -14,11 +16,11 @@ using namespace std::chrono_literals;
 
 const HeightField& no_bed() { throw std::logic_error("nobody looks at the bed"); }
 
-/// A relaxation of a million passes within a tick is no silence.
+/// A tick may relax in a million passes: the run tells how far it is meanwhile.
 TEST(RunProgress, IsToldWithinATick) {
   if (isatty(STDERR_FILENO)) GTEST_SKIP() << "the bar is drawn on the terminal";
   const KeptLog log;
-  RunProgress progress(0s);  // tells, and whenever as much time has passed again
+  RunProgress progress(0s);  // tells at once, and again whenever the time has doubled
   const auto next_line = [&](const auto& tell) {
     const std::size_t before = log.text().size();
     for (std::int64_t i = 1; i < 100'000'000 && log.text().size() == before; i += 16)
