@@ -68,11 +68,11 @@ Stroke recorded_in(const Scene& scene, const Stroke& stroke, double noise = 0.0)
     if (!stroke.orientation.empty()) felt.orientation.push_back(tick.hand.orientation.coeffs());
     squares += tick.device_force.squaredNorm();
   }
+  if (noise == 0.0) return felt;
   std::mt19937 random(3);
   std::normal_distribution<double> error(0.0, noise * std::sqrt(squares / static_cast<double>(felt.size())));
-  if (noise > 0.0)
-    for (Vector3d& force : felt.force)
-      for (double& component : force) component += error(random);
+  for (Vector3d& force : felt.force)
+    for (double& component : force) component += error(random);
   return felt;
 }
 
