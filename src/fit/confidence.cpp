@@ -101,7 +101,7 @@ double Confidence::end(std::size_t constant, double outermost, double open, doub
   constexpr double first_step = 0.01, longest = 10.0, shortest = 1.5, tolerance = 0.02, least_step = 1e-6;
   const bool upwards = open > 0.0;
   const double best = std::max(best_[static_cast<Index>(constant)], std::numeric_limits<double>::min());
-  const double whole = upwards ? std::log(outermost / best) : std::log(best / outermost);
+  const double whole = elementary::log1p((upwards ? outermost / best : best / outermost) - 1.0);
   if (!(whole > 0.0)) return open;  // the best value stands for it
   struct Point {
     double step, distance;
