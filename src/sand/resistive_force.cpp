@@ -5,6 +5,7 @@
 
 #include "core/angle.h"
 #include "core/elementary.h"
+#include "rules/force.h"
 #include "sand/resistive_kernels.h"
 
 namespace sandstroke {
@@ -22,8 +23,16 @@ double resistance(const SandStrength& sand) {
 
 Wrench Wrench::limited(double max_force) const {
   if (!(max_force > 0.0) || strength <= max_force) return *this;
-  const double fraction = max_force / strength;
-  return {fraction * force, fraction * torque, fraction * stiffness, fraction * stored, max_force};
+  const double size = std::max(whole, length_of(force));
+  const double of_force = size > max_force ? max_force / size : 1.0, of_stiffness = max_force / strength;
+  Wrench weaker = *this;
+  weaker.force *= of_force;
+  weaker.torque *= of_force;
+  weaker.stiffness *= of_stiffness;
+  weaker.stored *= of_force * of_force / of_stiffness;  // force^2 / (2 stiffness)
+  weaker.strength = max_force;
+  weaker.whole = std::min(whole, max_force);
+  return weaker;
 }
 
 ResistiveForce::ResistiveForce(const TriangleMesh& surface, double element_size)

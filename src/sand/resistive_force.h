@@ -41,10 +41,14 @@ struct Wrench {
   double stiffness = 0.0;                            ///< N/m, growth of the force with the tool's way
   double stored = 0.0;                               ///< J that the sand may give back, at most
   double strength = 0.0;  ///< N, sum of the sizes of all elements' forces once the tool has yielded
+  double whole = 0.0;     ///< N, size of the force on the whole tool once it has yielded
+  Eigen::Vector3d given = Eigen::Vector3d::Zero();  ///< N, what the scene's device gives of the force
 
-  /// The wrench of weaker sand, whose strength is at most max_force [N], as a device of that maximum gives it
-  /// (0: unchanged). If only the force were cut, the sand would stay as stiff as before when the tool
-  /// reverses, and reverse the force late.
+  /// The wrench of weaker sand, whose force on the whole tool is at most max_force [N], as a device of that
+  /// maximum is to give it (0: unchanged). If only the force were cut, the sand would stay as stiff as before
+  /// when the tool reverses, and reverse the force late. Stiffness and strength are those of sand in which
+  /// the elements' forces add up to no more than max_force, so a tool whose elements push against each other
+  /// is not stiffer than the device can bear.
   Wrench limited(double max_force) const;
 };
 

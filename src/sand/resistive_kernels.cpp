@@ -5,6 +5,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "rules/force.h"
 #include "sand/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -82,30 +83,33 @@ constexpr double fade = 0.05;
 class WrenchSum {
  public:
   HWY_INLINE WrenchSum() {}  // an implicit one would not have the instruction set's attributes
-  /// size: of an element's force per depth [N/m], once it has fully yielded; `mobilised` is the part of it
-  /// that acts.
-  HWY_INLINE void add(int index, const Vector& r, const Vector& force, V size, V depth, V mobilised) {
+  /// whole: an element's force once it has fully yielded, `size` [N/m] per depth.
+  HWY_INLINE void add(int index, const Vector& r, const Vector& force, const Vector& whole, V size, V depth) {
     force_x_.add(index, force.x);
     force_y_.add(index, force.y);
     force_z_.add(index, force.z);
     torque_x_.add(index, r.y * force.z - r.z * force.y);
     torque_y_.add(index, r.z * force.x - r.x * force.z);
     torque_z_.add(index, r.x * force.y - r.y * force.x);
-    const V full = size * Max(depth, hn::Zero(d));
+    whole_x_.add(index, whole.x);
+    whole_y_.add(index, whole.y);
+    whole_z_.add(index, whole.z);
     growth_.add(index, size);
-    strength_.add(index, full);
-    amount_.add(index, full * mobilised);
+    strength_.add(index, size * Max(depth, hn::Zero(d)));
   }
   Wrench total(double yield_way) const {
-    return {{force_x_.total(), force_y_.total(), force_z_.total()},
-            {torque_x_.total(), torque_y_.total(), torque_z_.total()},
-            growth_.total() + strength_.total() / yield_way,
-            0.5 * yield_way * amount_.total(),
-            strength_.total()};
+    Wrench wrench;
+    wrench.force << force_x_.total(), force_y_.total(), force_z_.total();
+    wrench.torque << torque_x_.total(), torque_y_.total(), torque_z_.total();
+    wrench.strength = strength_.total();
+    wrench.stiffness = growth_.total() + wrench.strength / yield_way;
+    wrench.whole = length_of({whole_x_.total(), whole_y_.total(), whole_z_.total()});
+    return wrench;
   }
 
  private:
-  LaneSum force_x_, force_y_, force_z_, torque_x_, torque_y_, torque_z_, growth_, strength_, amount_;
+  LaneSum force_x_, force_y_, force_z_, torque_x_, torque_y_, torque_z_, whole_x_, whole_y_, whole_z_,
+      growth_, strength_;
 };
 
 Wrench ResistiveWrench(const ResistiveTick& tick) {
@@ -164,7 +168,8 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
     if (hn::AllFalse(d, area > zero)) continue;
     const Vector alpha = stress(n, u, all(tick.tool_friction));
     const V size = Sqrt(alpha.dot(alpha)) * area;
-    sum.add(index, r, alpha.times(area * depth * mobilised), size, depth, mobilised);
+    const V pushes = area * depth;
+    sum.add(index, r, alpha.times(pushes * mobilised), alpha.times(pushes), size, depth);
   }
   return sum.total(tick.yield_way);
 }
