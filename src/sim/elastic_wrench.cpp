@@ -15,6 +15,8 @@ double dot(const Six& a, const Six& b) {
   return sum;
 }
 
+double length(const Six& a) { return std::sqrt(dot(a, a)); }
+
 struct Ball {
   Six centre;
   double radius2;  // squared
@@ -41,13 +43,17 @@ Six nearest_in_both(const Ball& a, const Ball& b, const Six& point) {
   return rim.nearest_to(point - dot(off, apart) / apart2 * apart);
 }
 
-/// An elastic force that is larger than `asked` yields to the size of that, and turns towards it by as much.
-Six yielded(const Six& elastic, const Six& asked) {
-  const double size = std::sqrt(dot(elastic, elastic)), most = std::sqrt(dot(asked, asked));
+/// An elastic force that is larger than `asked` yields to the size of that, and turns towards it by up to
+/// `most_turn`: by as much as a way along the surface of that size would turn it away.
+Six yielded(const Six& elastic, const Six& asked, double most_turn) {
+  const double size = length(elastic), most = length(asked);
   if (size <= most) return elastic;
   const Six shorter = most / size * elastic, turn = asked - shorter;
-  const double way = std::sqrt(dot(turn, turn)), part = size - most;
-  return part < way ? Six(shorter + part / way * turn) : asked;
+  const double way = length(turn);
+  if (way <= most_turn) return asked;
+  const Six turned = shorter + most_turn / way * turn;
+  const double chord = length(turned);
+  return chord > 0.0 ? Six(most / chord * turned) : turned;
 }
 
 }  // namespace
@@ -56,8 +62,9 @@ const Six& ElasticWrench::follow(const Six& asked, double stiffness, const Six& 
   if (stiffness < stiffness_) force_ *= std::sqrt(stiffness / stiffness_);
   stiffness_ = stiffness;
   const Six elastic = force_ - stiffness * way, middle = 0.5 * elastic;
-  force_ = nearest_in_both({middle, dot(middle, middle)}, {force_, stiffness * stiffness * dot(way, way)},
-                           yielded(elastic, asked));
+  const double change = stiffness * length(way);
+  force_ = nearest_in_both({middle, dot(middle, middle)}, {force_, change * change},
+                           yielded(elastic, asked, change));
   const double size = std::sqrt(force_[0] * force_[0] + force_[1] * force_[1] + force_[2] * force_[2]);
   if (most > 0.0 && size > most) force_ *= most / size;  // nearer to 0 in the same ball
   return force_;

@@ -9,7 +9,7 @@ namespace sandstroke {
 ///
 /// The force f comes from the potential f^2 / (2 K) of an elastic part, K being the sand's stiffness. A way q
 /// of the tool first changes f to f - K q. If that is larger than the force that the law asks for, sand
-/// yields: f shrinks to the size of that, and turns towards it by as much, as far as it can
+/// yields: f shrinks to the size of that, and turns towards it, as far as it can
 /// - within the ball whose diameter reaches from 0 to f - K q. There the work that yielding takes, the new
 ///   force times (f - K q - new f) / K, is not negative (Thales).
 /// - within K |q| of f. So K is the stiffness that a device's loop feels, and a tool that rests feels the
