@@ -30,36 +30,83 @@ constexpr double most_of_it = 0.5;  // fraction of the recorded force; below it 
 
 bool explains(const ForceFit& fit) { return fit.explained >= most_of_it; }
 
+/// NaN and infinity become null in JSON. A limit that is null: the recording sets none.
 nlohmann::ordered_json as_json(const ForceFit& fit) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();  // NaN becomes null in JSON
   nlohmann::ordered_json json = {{"ticks", fit.ticks},
                                  {"recorded_rms", fit.recorded_rms},
                                  {"scene_residual_rms", fit.start_residual},
                                  {"residual_rms", fit.residual},
                                  {"explained", fit.explained},
                                  {"explained_reversed", fit.explained_reversed},
-                                 {fit.of_scale.json_name, fit.scale},
-                                 {fit.of_scale.json_name + std::string("_error"), fit.scale_error}};
+                                 {"left_alike_for", fit.noise_length},
+                                 {fit.of_scale.json_name, fit.scale.value},
+                                 {fit.of_scale.json_name + std::string("_error"), fit.scale.error}};
+  if (!fit.combination.powers.isZero(0.0)) {
+    json["combination"] = {{"value", fit.combination.value}, {"error", fit.combination.error}};
+    for (const FittedConstant& one : fit.constants)
+      if (one.kept) json["combination"]["powers"][one.constant.name] = fit.combination.powers[one.index];
+  }
   for (const FittedConstant& one : fit.constants)
     json[one.constant.name] = {{"value", one.value},
-                               {"error", std::isfinite(one.error) ? one.error : none},
+                               {"error", one.error},
+                               {"interval_95", {one.likely.low, one.likely.high}},
+                               {"kept", one.kept},
                                {"determined", one.determined()},
+                               {"given_error", one.given_error > 0.0 ? one.given_error : one.error},
                                {"unit", one.constant.unit},
                                {"key", one.constant.key}};
   return json;
 }
 
+std::string with_unit(std::string number, const char* unit) { return *unit ? number + ' ' + unit : number; }
+
 /// Writes a value and its error, with units.
 std::string value_text(double value, double error, const char* unit) {
-  return fmt::format("{:.4g} +- {:.2g} {}", value, error, unit);
+  return with_unit(fmt::format(std::isnan(error) ? "{:.4g} (given)" : "{:.4g} +- {:.2g}", value, error),
+                   unit);
 }
 
-std::string text_of(const FittedConstant& one) {
+std::string likely_text(const Interval& likely) {
+  const bool has_low = likely.low > 0.0, has_high = std::isfinite(likely.high);
+  if (has_low && has_high) return fmt::format("95 %: {:.4g} to {:.4g}", likely.low, likely.high);
+  if (has_low) return fmt::format("95 %: above {:.4g}", likely.low);
+  if (has_high) return fmt::format("95 %: below {:.4g}", likely.high);
+  return "95 %: any value";
+}
+
+/// The kept constants, as in "given k_c = 0.5 1/m".
+std::string given_text(const ForceFit& fit) {
+  std::vector<std::string> kept;
+  for (const FittedConstant& one : fit.constants)
+    if (one.kept)
+      kept.push_back(with_unit(fmt::format("{} = {:.4g}", one.constant.name, one.value), one.constant.unit));
+  return fmt::format("given {}", fmt::join(kept, ", "));
+}
+
+std::string text_of(const FittedConstant& one, const ForceFit& fit) {
   const char* const unit = one.constant.unit;
-  if (one.determined()) return value_text(one.value, one.error, unit);
-  return (std::isfinite(one.error) ? value_text(one.value, one.error, unit)
-                                   : fmt::format("{:.4g} {} (from the scene)", one.value, unit)) +
-         ": the recording does not determine it";
+  const std::string likely = likely_text(one.likely), value = fmt::format("{:.4g}", one.value);
+  if (one.determined()) return value_text(one.value, one.error, unit) + " (" + likely + ")";
+  const std::string unknown = ": the recording alone does not determine it (" + likely + ")";
+  if (one.kept) return with_unit(value, unit) + " (from the scene)" + unknown;
+  if (one.given_error > 0.0)
+    return value_text(one.value, one.given_error, unit) + ", " + given_text(fit) + unknown;
+  return with_unit(value, unit) + unknown;
+}
+
+/// The combination that is determined, such as "resistance (tool_friction / 0.4)^0.31".
+std::string combination_text(const ForceFit& fit) {
+  std::string text = fit.of_scale.name;
+  for (const FittedConstant& one : fit.constants)
+    if (const double power = fit.combination.powers[one.index]; power != 0.0)
+      text += fmt::format(" ({} / {:.4g})^{:.2f}", one.constant.name, one.value, power);
+  return text + " = " + value_text(fit.combination.value, fit.combination.error, fit.of_scale.unit);
+}
+
+std::string noise_text(const ForceFit& fit) {
+  if (fit.noise_length == 0.0) return "differs from one tick to the next";
+  return fmt::format("stays alike for {:.2g} s, which the errors allow for if the recording is much longer",
+                     fit.noise_length);
 }
 
 /// The constants in the form of --set.
@@ -73,11 +120,13 @@ std::vector<std::string> settings_of(const ForceFit& fit) {
 void print_fit(const ForceFit& fit) {
   print_row("ticks",
             fmt::format("{} in contact, with a recorded force of {:.3g} N rms", fit.ticks, fit.recorded_rms));
-  for (const FittedConstant& one : fit.constants) print_row(one.constant.key, text_of(one));
+  for (const FittedConstant& one : fit.constants) print_row(one.constant.key, text_of(one, fit));
   const std::string meaning = fmt::format("{}: {}", fit.of_scale.unit, fit.of_scale.meaning);
-  print_row(fit.of_scale.name, value_text(fit.scale, fit.scale_error, meaning.c_str()));
+  print_row(fit.of_scale.name, value_text(fit.scale.value, fit.scale.error, meaning.c_str()));
+  if (!fit.combination.powers.isZero(0.0)) print_row("best known", combination_text(fit));
   print_row("residual", fmt::format("{:.3g} N rms; with the scene's constants {:.3g} N", fit.residual,
                                     fit.start_residual));
+  print_row("what is left", noise_text(fit));
   print_row("explained",
             fmt::format("{:.0f} % of the recorded force (of its mean square)", 100.0 * fit.explained));
 }
@@ -173,7 +222,11 @@ void add_fit_command(CLI::App& app, Command& chosen) {
       "\n"
       "fit plays the stroke through the scene's sand. Depths count from the sand under the tool, which lies\n"
       "lower in the tool's own furrow. fit compares the model's force with the recorded one by least\n"
-      "squares. Errors are standard errors (jackknife over ten stretches of time).\n"
+      "squares. +- is half of the 68 % interval, with the other fitted constants free. Intervals allow for\n"
+      "noise that stays alike for much less than the recording. A constant is determined if the force\n"
+      "depends on it and its 95 % interval lies between half and twice its value. One that is not stays at\n"
+      "the scene's value, unless the recording contradicts that. Those after 'given' hold for that value.\n"
+      "k_s and friction_angle never stay.\n"
       "Example:  sandstroke fit strokes/wscg/scene.toml --stroke tracing.h5 --set stroke.depth=0.004",
       constants_text()));
   command->callback([arguments, &chosen] { chosen = [arguments] { return fit(*arguments); }; });

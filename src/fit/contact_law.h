@@ -8,8 +8,9 @@ namespace sandstroke {
 /// interpolated between the grid's sands.
 class ContactLaw : public FeltLaw {
  public:
-  /// max_force [N]; 0: no limit.
-  ContactLaw(SandGrid grid, double max_force) : grid_(std::move(grid)), max_force_(max_force) {}
+  /// max_force [N]; 0: no limit. period [s] of a tick.
+  ContactLaw(SandGrid grid, double max_force, double period)
+      : grid_(std::move(grid)), max_force_(max_force), period_(period) {}
 
   const SandGrid& grid() const { return grid_; }
   /// Adds the next tick: a force for each of the grid's sands. To limit memory, it drops every second tick if
@@ -23,15 +24,16 @@ class ContactLaw : public FeltLaw {
   Eigen::VectorXd weak() const override;
   Eigen::VectorXd numbers(const Eigen::VectorXd& values) const override;
   Eigen::VectorXd values(const Eigen::VectorXd& numbers) const override;
-  std::vector<double> extremes(std::size_t constant) const override { return grid_.extremes(constant); }
+  Range range(std::size_t constant) const override { return grid_.range(constant); }
   Eigen::Matrix3Xd recorded() const override;
   Eigen::Matrix3Xd forces(const Eigen::VectorXd& values, DeviceLimit limit) const override;
   double max_force() const override { return max_force_; }
   std::int64_t ticks() const override { return ticks_; }
+  double period() const override { return period_; }
 
  private:
   SandGrid grid_;
-  double max_force_;
+  double max_force_, period_;
   std::vector<Eigen::Vector4d> felt_;  // each tick's, for each sand: force and strength over resistance [m^3]
   std::vector<Eigen::Vector3d> recorded_;
   std::int64_t ticks_ = 0, every_ = 1;

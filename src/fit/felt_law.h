@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -41,15 +42,16 @@ class FeltLaw {
   virtual Eigen::VectorXd numbers(const Eigen::VectorXd& values) const = 0;
   virtual Eigen::VectorXd values(const Eigen::VectorXd& numbers) const = 0;
 
-  /// Values with another value of this constant. A recording that determines the constant can tell them from
-  /// `values`. Empty: the constant is fitted, whatever the recording tells of it.
-  virtual std::vector<Eigen::VectorXd> rivals(const Eigen::VectorXd& /*values*/,
-                                              std::size_t /*constant*/) const {
-    return {};
+  /// `values` with another value of this constant. The scale stays where the law lets it.
+  virtual Eigen::VectorXd with(Eigen::VectorXd values, std::size_t constant, double value) const {
+    values[static_cast<Eigen::Index>(constant)] = value;
+    return values;
   }
-  /// The least and the greatest value that the constant can have. If the recording determines the constant,
-  /// both leave clearly more of the force. Empty: as above.
-  virtual std::vector<double> extremes(std::size_t /*constant*/) const { return {}; }
+  /// A constant's least value, which stands for 0, and its greatest, which stands for more than any.
+  struct Range {
+    double least = 0.0, most = std::numeric_limits<double>::infinity();
+  };
+  virtual Range range(std::size_t /*constant*/) const { return {}; }
 
   /// The recorded force on the hand [N], a column for each tick.
   virtual Eigen::Matrix3Xd recorded() const = 0;
@@ -59,6 +61,8 @@ class FeltLaw {
   virtual double max_force() const = 0;
   /// The number of the run's ticks. The columns above may be some of them, evenly chosen.
   virtual std::int64_t ticks() const = 0;
+  /// The time from a tick to the next [s].
+  virtual double period() const = 0;
 };
 
 /// A fit takes at most so many ticks: more of them say little more.

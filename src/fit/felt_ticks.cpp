@@ -89,7 +89,7 @@ std::vector<FeltTick> felt_ticks(const FeltStroke& felt) {
 
 ContactLaw felt_in(const FeltStroke& felt, SandGrid grid) {
   Simulation run(felt.scene, felt.bed, felt.stroke);
-  ContactLaw law(std::move(grid), felt.scene.device.max_force);
+  ContactLaw law(std::move(grid), felt.scene.device.max_force, 1.0 / felt.scene.device.servo_rate);
   ContactTicks ticks(run, law);
   RunProgress bar;
   run.run({&ticks, &bar});

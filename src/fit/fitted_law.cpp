@@ -7,11 +7,20 @@
 namespace sandstroke {
 namespace {
 
+/// None if it was interrupted.
+std::optional<ForceFit> whole_fit(const FeltLaw& law, const std::vector<bool>& asked) {
+  ForceFit fit = fit_force(law, asked);
+  if (interrupted()) return std::nullopt;
+  return fit;
+}
+
 /// The force of each tick follows from depth and velocity, which a run tells once and for all.
 std::optional<ForceFit> fit_paper(const FeltStroke& felt, const std::vector<bool>& is_free) {
   const std::vector<FeltTick> ticks = felt_ticks(felt);
   if (interrupted()) return std::nullopt;
-  return fit_force(PaperLaw(ticks, felt.scene.force, felt.scene.device.max_force), is_free);
+  return whole_fit(
+      PaperLaw(ticks, felt.scene.force, felt.scene.device.max_force, 1.0 / felt.scene.device.servo_rate),
+      is_free);
 }
 
 /// The force is not linear in the constants. The run is played again, with sands around the best values so
@@ -25,7 +34,7 @@ std::optional<ForceFit> fit_contact(const FeltStroke& felt, const std::vector<bo
     const ContactLaw near = felt_in(felt, {constants, sand, best, is_free});
     if (interrupted()) return std::nullopt;
     best = LeastSquares{near, near.recorded(), is_free}.best();
-    if (turn == most_turns || near.grid().is_close_about(best)) return fit_force(near, is_free);
+    if (turn == most_turns || near.grid().is_close_about(best)) return whole_fit(near, is_free);
   }
 }
 

@@ -3,74 +3,25 @@
 #include <spdlog/fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "core/error.h"
-#include "fit/least_squares.h"
+#include "core/interrupt.h"
 
 namespace sandstroke {
 namespace {
 
 using Eigen::VectorXd;
 
-constexpr Eigen::Index stretches = 10, least_ticks = 100;
-
-double jackknife_error(const VectorXd& values) {
-  const double squares = (values.array() - values.mean()).square().sum();
-  return std::sqrt(squares * (stretches - 1.0) / stretches);
-}
-
-/// A fit, and the errors of all its values and of the scale.
-struct Estimate {
-  VectorXd values, error;
-  double scale_error = 0.0;
-};
-
-Eigen::Index begin_of(Eigen::Index stretch, Eigen::Index ticks) {
-  return (stretch * ticks + stretches - 1) / stretches;
-}
-
-Estimate estimate(const LeastSquares& problem) {
-  Estimate found{problem.best(), VectorXd::Zero(problem.law.start().size())};
-  Eigen::MatrixXd others(found.values.size(), stretches);
-  VectorXd scales(stretches);
-  const Eigen::Index ticks = problem.recorded.cols();
-  for (Eigen::Index k = 0; k < stretches; ++k) {
-    others.col(k) = problem.solved(found.values, {begin_of(k, ticks), begin_of(k + 1, ticks)});
-    scales[k] = problem.law.numbers(others.col(k))[0];
-  }
-  for (Eigen::Index i = 0; i < found.error.size(); ++i) found.error[i] = jackknife_error(others.row(i));
-  found.scale_error = jackknife_error(scales);
-  return found;
-}
+constexpr Eigen::Index least_ticks = 100;
 
 /// The root mean square [N] of the difference of two forces, without the device's limit.
 double difference_rms(const FeltLaw& law, const VectorXd& one, const VectorXd& other) {
   return rms(law.forces(one, DeviceLimit::ignored) - law.forces(other, DeviceLimit::ignored));
 }
 
-/// True if this value of a constant, with the others fitted anew, leaves clearly more of the force: the
-/// difference of squares is larger than its standard error between stretches. That is two standard errors of
-/// the constant.
-bool fits_worse(LeastSquares problem, const VectorXd& best, Eigen::Index constant, double value) {
-  VectorXd rival = best;
-  rival[constant] = value;
-  problem.is_free[static_cast<std::size_t>(constant)] = false;
-  rival = problem.solved(rival);
-  const auto squares = [&](const VectorXd& values) -> VectorXd {
-    return (problem.law.forces(values, DeviceLimit::applied) - problem.recorded).colwise().squaredNorm();
-  };
-  const VectorXd more = squares(rival) - squares(best);
-  VectorXd sums(stretches);
-  for (Eigen::Index k = 0; k < stretches; ++k) {
-    const Eigen::Index begin = begin_of(k, more.size());
-    sums[k] = more.segment(begin, begin_of(k + 1, more.size()) - begin).sum();
-  }
-  const double variance = (sums.array() - sums.mean()).square().sum() * stretches / (stretches - 1.0);
-  return sums.sum() > std::sqrt(variance);
-}
+double half(const Interval& interval) { return 0.5 * (interval.high - interval.low); }
 
 VectorXd without(VectorXd values, Eigen::Index constant) {
   values[constant] = 0.0;
@@ -101,6 +52,38 @@ void check_limit(const FeltLaw& law, const VectorXd& values) {
         law.max_force(), cut, felt);
 }
 
+/// What all asked constants together say. Keeps the scene's value of a constant that the recording neither
+/// determines nor contradicts.
+void find_constants(LeastSquares& problem, ForceFit& fit) {
+  const FeltLaw& law = problem.law;
+  const std::vector<bool> asked = problem.is_free;
+  fit.values = problem.best();
+  check_limit(law, fit.values);
+  const Confidence confidence(problem, fit.values);
+  for (std::size_t constant = 0; constant < asked.size(); ++constant) {
+    if (!asked[constant]) continue;
+    if (interrupted()) return;
+    const auto i = static_cast<Eigen::Index>(constant);
+    FittedConstant one{law.constants()[constant], i, fit.values[i],
+                       half(confidence.interval(constant, SlowWaves::within_68)),
+                       confidence.interval(constant, SlowWaves::within_95)};
+    one.kept = constant != 0 && !one.determined() &&  // 0 carries the scale
+               confidence.distance(constant, law.start()[i]) <= SlowWaves::within_999;
+    if (one.kept) one.error = std::numeric_limits<double>::infinity();
+    problem.is_free[constant] = !one.kept;
+    fit.constants.push_back(one);
+  }
+  if (problem.is_free == asked) return;
+  fit.values = problem.best();
+  const Confidence given(problem, fit.values);
+  for (FittedConstant& one : fit.constants) {
+    if (interrupted()) return;
+    one.value = fit.values[one.index];
+    if (!one.kept && !one.determined())
+      one.given_error = half(given.interval(static_cast<std::size_t>(one.index), SlowWaves::within_68));
+  }
+}
+
 }  // namespace
 
 std::vector<bool> chosen_constants(std::span<const ForceConstant> constants,
@@ -124,42 +107,25 @@ ForceFit fit_force(const FeltLaw& law, const std::vector<bool>& asked) {
   LeastSquares problem{law, law.recorded(), asked};
   ForceFit fit;
   fit.recorded_rms = rms(problem.recorded);
+  find_constants(problem, fit);
+  if (interrupted()) return fit;
+  check_limit(law, fit.values);
   // A smaller change of the force [N] is not noticed.
-  const auto least_seen = [&](const VectorXd& values) {
-    return std::max(0.01 * problem.residual(values), 1e-6 * fit.recorded_rms);
-  };
-  Estimate found = estimate(problem);
-  const auto is_known = [&](std::size_t constant) {
-    const std::vector<VectorXd> rivals = law.rivals(found.values, constant);
-    const std::vector<double> extremes = law.extremes(constant);
-    const auto i = static_cast<Eigen::Index>(constant);
-    if (rivals.empty() && extremes.empty()) return true;
-    return found.error[i] < found.values[i] &&
-           std::none_of(rivals.begin(), rivals.end(),
-                        [&](const VectorXd& rival) {
-                          return difference_rms(law, found.values, rival) < least_seen(found.values);
-                        }) &&
-           std::all_of(extremes.begin(), extremes.end(),
-                       [&](double extreme) { return fits_worse(problem, found.values, i, extreme); });
-  };
-  std::vector<bool> known = asked;
-  for (std::size_t i = 0; i < asked.size(); ++i) known[i] = asked[i] && is_known(i);
-  problem.is_free = known;
-  if (problem.is_free != asked) found = estimate(problem);
-  check_limit(law, found.values);
-
-  fit.values = found.values;
-  for (std::size_t constant = 0; constant < asked.size(); ++constant) {
-    if (!asked[constant]) continue;
-    const auto i = static_cast<Eigen::Index>(constant);
-    fit.constants.push_back(
-        {law.constants()[constant], found.values[i],
-         problem.is_free[constant] ? found.error[i] : std::numeric_limits<double>::infinity(),
-         difference_rms(law, found.values, without(found.values, i)) > least_seen(found.values)});
-  }
+  const double least_seen = std::max(0.01 * problem.residual(fit.values), 1e-6 * fit.recorded_rms);
+  for (FittedConstant& one : fit.constants)
+    one.acts = difference_rms(law, fit.values, without(fit.values, one.index)) > least_seen;
   fit.of_scale = law.scale();
-  fit.scale = law.numbers(found.values)[0];
-  fit.scale_error = found.scale_error;
+  if (asked[0]) {
+    fit.scale = scale_about(problem, asked, fit.values);
+    fit.combination = combination_about(problem, asked, fit.values);
+  } else {
+    fit.combination.powers = VectorXd::Zero(fit.values.size());
+    fit.scale.value = law.numbers(fit.values)[0];
+    fit.scale.error = std::numeric_limits<double>::quiet_NaN();
+  }
+  const Eigen::Matrix3Xd left = law.forces(fit.values, DeviceLimit::applied) - problem.recorded;
+  const double ticks_apart = static_cast<double>(law.ticks()) / static_cast<double>(left.cols());
+  fit.noise_length = static_cast<double>(correlation_length(left)) * ticks_apart * law.period();
   fit.ticks = law.ticks();
   fit.start_residual = problem.residual(law.start());
   fit.residual = problem.residual(fit.values);

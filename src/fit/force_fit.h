@@ -4,19 +4,24 @@
 #include <string>
 #include <vector>
 
-#include "fit/felt_law.h"
+#include "fit/confidence.h"
 
 namespace sandstroke {
 
 /// The result of the fit for one constant.
 struct FittedConstant {
   ForceConstant constant;
+  Eigen::Index index = 0;  ///< of the constant in its law
   double value = 0.0;
-  double error = 0.0;  ///< standard error; infinite: the start's value was kept
-  bool acts = true;    ///< without it the force would change by over a hundredth of what the fit leaves
+  double error = 0.0;  ///< half of the 68 % interval, with the other asked constants free; infinite if kept
+  Interval likely;     ///< the 95 % interval, with the other asked constants free
+  bool kept = false;   ///< value: the scene's, which the recording does not contradict
+  double given_error = 0.0;  ///< as error, with the kept constants at their values; 0: not told
+  bool acts = true;          ///< without it the force would change by over a hundredth of what the fit leaves
 
-  /// True if the recording determines it.
-  bool determined() const { return acts && error < value; }
+  /// True if the recording determines it, whatever the other asked constants are. The value is the last
+  /// fit's.
+  bool determined() const { return acts && !kept && likely.low >= 0.5 * value && likely.high <= 2.0 * value; }
 };
 
 /// The force constants that come nearest to a recorded force.
@@ -24,7 +29,10 @@ struct ForceFit {
   Eigen::VectorXd values;                 ///< all constants' of the law
   std::vector<FittedConstant> constants;  ///< those that were asked for
   ForceScale of_scale;
-  double scale = 0.0, scale_error = 0.0;
+  Combination scale;        ///< its best value if all asked constants are free; error: NaN if it is given
+  Combination combination;  ///< without powers it is the scale
+  double noise_length =
+      0.0;  ///< s, how long what is left stays alike (correlation above 1/e); 0: neighbours differ
   std::int64_t ticks = 0;
   double recorded_rms = 0.0;  ///< N, of the recorded force
   double start_residual = 0.0,
@@ -41,11 +49,12 @@ std::vector<bool> chosen_constants(std::span<const ForceConstant> constants,
 /// Fits the force within the device's limit by least squares over all components of all ticks. No constant
 /// becomes negative.
 ///
-/// Errors are by the jackknife over ten stretches of time: neighbouring ticks err alike, and a formula for
-/// independent ones would promise too much. A constant with rivals or extremes (FeltLaw) keeps the start's
-/// value if its error is larger than its value, if a rival changes the force by less than a hundredth of what
-/// the fit leaves, or if an extreme does not leave clearly more.
+/// Intervals are profiles (Confidence) that cover white noise and noise that lasts. A constant is determined
+/// if its 95 % interval, with the others free, is within half and twice its value. One that is not keeps the
+/// start's value, unless the recording contradicts that (beyond the 99.9 % interval), and the others are
+/// fitted given that value. The first constant never does, because the scale would be lost.
 ///
+/// If interrupted(), the result is not complete.
 /// Error: input, if all recorded forces are 0, or fewer than a hundred ticks have a force that the limit does
 /// not cut.
 /// asked: which of law.constants() to fit.

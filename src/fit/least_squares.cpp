@@ -55,18 +55,11 @@ struct Residuals {
 
   const LeastSquares& problem;
   const FreeRoots& free;
-  Stretch left_out;
 
   int inputs() const { return static_cast<int>(free.roots().size()); }
-  int values() const {
-    return static_cast<int>(3 * (problem.recorded.cols() - (left_out.end - left_out.begin)));
-  }
+  int values() const { return static_cast<int>(problem.recorded.size()); }
   int operator()(const VectorXd& roots, VectorXd& left) const {
-    const Eigen::Matrix3Xd all =
-        problem.law.forces(free.values(roots), DeviceLimit::applied) - problem.recorded;
-    const Eigen::Index before = 3 * left_out.begin, after = 3 * (all.cols() - left_out.end);
-    left.head(before) = all.reshaped().head(before);
-    left.tail(after) = all.reshaped().tail(after);
+    left = (problem.law.forces(free.values(roots), DeviceLimit::applied) - problem.recorded).reshaped();
     return left.allFinite() ? 0 : -1;
   }
 };
@@ -83,11 +76,11 @@ double LeastSquares::residual(const VectorXd& values) const {
   return rms(law.forces(values, DeviceLimit::applied) - recorded);
 }
 
-VectorXd LeastSquares::solved(const VectorXd& from, Stretch left_out) const {
+VectorXd LeastSquares::solved(const VectorXd& from) const {
   const FreeRoots free(*this, from);
   VectorXd roots = free.roots();
   if (roots.size() == 0) return from;
-  Eigen::NumericalDiff<Residuals, Eigen::Central> residuals(Residuals{*this, free, left_out});
+  Eigen::NumericalDiff<Residuals, Eigen::Central> residuals(Residuals{*this, free});
   Eigen::LevenbergMarquardt<decltype(residuals)> solver(residuals);
   solver.parameters.xtol = solver.parameters.ftol = 1e-12;
   solver.minimize(roots);

@@ -4,11 +4,6 @@
 
 namespace sandstroke {
 
-/// A law's ticks from begin to end - 1.
-struct Stretch {
-  Eigen::Index begin = 0, end = 0;
-};
-
 /// A least-squares problem: which values may change, and what the force should be [N, a column for each
 /// tick].
 struct LeastSquares {
@@ -18,9 +13,9 @@ struct LeastSquares {
 
   /// The force that these values leave, N rms over the ticks.
   double residual(const Eigen::VectorXd& values) const;
-  /// The values that leave least, over all components of all ticks but those of a stretch (Levenberg and
-  /// Marquardt). The search begins at `from`; values that are not free stay as they are there.
-  Eigen::VectorXd solved(const Eigen::VectorXd& from, Stretch left_out = {}) const;
+  /// The values that leave least, over all components of all ticks (Levenberg and Marquardt). The search
+  /// begins at `from`; values that are not free stay as they are there.
+  Eigen::VectorXd solved(const Eigen::VectorXd& from) const;
   /// The better of two fits, from the law's start and from weak sand. Where the device's limit cuts every
   /// force, no constant changes the force, and a fit would stay where it began.
   Eigen::VectorXd best() const;

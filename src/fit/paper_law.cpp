@@ -7,6 +7,8 @@ namespace {
 
 using Eigen::VectorXd;
 
+constexpr double least_k_c = 1e-6;  // 1/m: stands for 0
+
 enum PaperConstant : Eigen::Index { k_s, k_c, k_f };
 
 std::vector<FeltTick> evenly_chosen(const std::vector<FeltTick>& ticks) {
@@ -19,11 +21,13 @@ std::vector<FeltTick> evenly_chosen(const std::vector<FeltTick>& ticks) {
 
 }  // namespace
 
-PaperLaw::PaperLaw(const std::vector<FeltTick>& ticks, const ForceSettings& start, double max_force)
+PaperLaw::PaperLaw(const std::vector<FeltTick>& ticks, const ForceSettings& start, double max_force,
+                   double period)
     : ticks_(evenly_chosen(ticks)),
       settings_(start),
       start_(Eigen::Vector3d(start.k_s, start.k_c, start.k_f)),
       max_force_(max_force),
+      period_(period),
       all_ticks_(static_cast<std::int64_t>(ticks.size())) {}
 
 ForceSettings PaperLaw::settings(const VectorXd& values) const {
@@ -44,15 +48,20 @@ VectorXd PaperLaw::numbers(const VectorXd& values) const {
 }
 
 VectorXd PaperLaw::values(const VectorXd& numbers) const {
-  constexpr double least_k_c = 1e-6;
   const double growth = std::max(numbers[k_c], least_k_c);
   return Eigen::Vector3d(numbers[0] / growth, growth, numbers[k_f]);
 }
 
-/// A rival force that is linear in the depth, with the same k_s k_c.
-std::vector<VectorXd> PaperLaw::rivals(const VectorXd& values, std::size_t constant) const {
-  if (constant != k_c) return {};
-  return {Eigen::Vector3d(1e4 * values[k_s], 1e-4 * values[k_c], values[k_f])};
+VectorXd PaperLaw::with(VectorXd values, std::size_t constant, double value) const {
+  const double stiffness = values[k_s] * values[k_c];
+  values[static_cast<Eigen::Index>(constant)] = value;
+  if (constant == k_s) values[k_c] = stiffness / value;
+  if (constant == k_c) values[k_s] = stiffness / value;
+  return values;
+}
+
+FeltLaw::Range PaperLaw::range(std::size_t constant) const {
+  return constant == k_c ? Range{.least = least_k_c} : Range{};
 }
 
 Eigen::Matrix3Xd PaperLaw::recorded() const {

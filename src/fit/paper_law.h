@@ -19,8 +19,8 @@ inline constexpr ForceConstant paper_constants[] = {
 /// k_s k_c d and says little about k_s alone.
 class PaperLaw : public FeltLaw {
  public:
-  /// max_force [N]; 0: no limit.
-  PaperLaw(const std::vector<FeltTick>& ticks, const ForceSettings& start, double max_force);
+  /// max_force [N]; 0: no limit. period [s] of a tick.
+  PaperLaw(const std::vector<FeltTick>& ticks, const ForceSettings& start, double max_force, double period);
 
   ForceSettings settings(const Eigen::VectorXd& values) const;
 
@@ -32,17 +32,20 @@ class PaperLaw : public FeltLaw {
   Eigen::VectorXd weak() const override;
   Eigen::VectorXd numbers(const Eigen::VectorXd& values) const override;
   Eigen::VectorXd values(const Eigen::VectorXd& numbers) const override;
-  std::vector<Eigen::VectorXd> rivals(const Eigen::VectorXd& values, std::size_t constant) const override;
+  /// k_s and k_c change together, so that k_s k_c stays.
+  Eigen::VectorXd with(Eigen::VectorXd values, std::size_t constant, double value) const override;
+  Range range(std::size_t constant) const override;
   Eigen::Matrix3Xd recorded() const override;
   Eigen::Matrix3Xd forces(const Eigen::VectorXd& values, DeviceLimit limit) const override;
   double max_force() const override { return max_force_; }
   std::int64_t ticks() const override { return all_ticks_; }
+  double period() const override { return period_; }
 
  private:
   std::vector<FeltTick> ticks_;
   ForceSettings settings_;
   Eigen::VectorXd start_;
-  double max_force_;
+  double max_force_, period_;
   std::int64_t all_ticks_;
 };
 

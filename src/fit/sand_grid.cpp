@@ -86,8 +86,7 @@ void SandGrid::add_nodes(std::size_t constant) {
   axes_.push_back(std::move(axis));
 }
 
-std::vector<double> SandGrid::extremes(std::size_t constant) const {
-  if (constant == 0) return {};
+FeltLaw::Range SandGrid::range(std::size_t constant) const {
   const SandConstant& one = in_sand(constants_[constant]);
   return {one.least, one.most};
 }

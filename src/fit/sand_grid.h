@@ -33,8 +33,7 @@ class SandGrid {
            const std::vector<bool>& is_free);
 
   std::span<const ForceConstant> constants() const { return constants_; }
-  /// The values that stand for 0 and for more than any; none for the angle.
-  std::vector<double> extremes(std::size_t constant) const;
+  FeltLaw::Range range(std::size_t constant) const;
   /// True if the grid knows the force of these values to about 1e-4 of it: they lie less than half the way to
   /// the nearest nodes.
   bool is_close_about(const Eigen::VectorXd& values) const;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "cli/program.h"
 #include "io/run_file.h"
@@ -55,6 +56,41 @@ TEST(CliFit, SaysWhenTheModelCannotExplainTheForceOrItsSignIsTheOther) {
   write_stroke_file(folder / "odd.h5", odd);
   const ProgramResult result = run_program({"fit", "scene.toml", "--stroke", "odd.h5"}, folder);
   EXPECT_NE(result.err.find("cannot explain"), std::string::npos) << result.err;
+}
+
+/// In shallow sand the force is k_s k_c d to one in a hundred, so that only the product is known.
+TEST(CliFit, TellsTheProductWhereTheConstantsAreNotDetermined) {
+  const fs::path folder = test_folder();
+  const std::vector<std::string> settings = {"--set", "force.k_s=800", "--set", "force.k_c=0.7"};
+  std::vector<std::string> run = {"run", "scene.toml", "-o", "a.h5"};
+  run.insert(run.end(), settings.begin(), settings.end());
+  ASSERT_EQ(run_program(run, folder).exit_code, 0);
+  write_felt_stroke(folder / "a.h5", folder / "felt.h5");
+  Stroke noisy = read_stroke_file(folder / "felt.h5");
+  std::mt19937 random(1);
+  std::normal_distribution<double> error(0.0, 0.05);
+  for (Eigen::Vector3d& force : noisy.force)
+    for (double& component : force) component += error(random);
+  write_stroke_file(folder / "noisy.h5", noisy);
+  const std::vector<std::string> fit_noisy = {"fit", "scene.toml", "--stroke", "noisy.h5"};
+  std::vector<std::string> for_machines = fit_noisy;
+  for_machines.emplace_back("--json");
+  const ProgramResult found = run_program(for_machines, folder);
+  ASSERT_EQ(found.exit_code, 0) << found.err;
+  const Json fit = Json::parse(found.out);
+  EXPECT_EQ(fit["k_c"]["determined"], false);
+  EXPECT_EQ(fit["k_c"]["kept"], true);
+  EXPECT_EQ(fit["k_c"]["value"], 0.5);  // the scene's
+  EXPECT_TRUE(fit["k_c"]["error"].is_null());
+  EXPECT_LE(fit["k_c"]["interval_95"][0], 0.7);
+  EXPECT_EQ(fit["k_s"]["determined"], false);
+  EXPECT_NEAR(fit["k_s"]["value"], 560.0 / 0.5, 20.0);
+  EXPECT_NEAR(fit["stiffness"], 560.0, 4.0 * static_cast<double>(fit["stiffness_error"]));
+  EXPECT_LT(fit["stiffness_error"], 10.0);
+  const ProgramResult table = run_program(fit_noisy, folder);
+  EXPECT_NE(table.out.find("given k_c = 0.5 1/m"), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("what is left       differs from one tick to the next"), std::string::npos)
+      << table.out;
 }
 
 const std::vector<std::string> rft = {"--set", "force.law=rft", "--set", "tool.profile=sphere"};

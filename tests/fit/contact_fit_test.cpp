@@ -134,7 +134,7 @@ TEST(ContactFit, FindsTheSandThatMadeTheForce) {
     ASSERT_EQ(fit.constants.size(), 2u);
     EXPECT_NEAR(fit.values[0], one.sand.friction_angle, 1e-3) << one.sand.friction_angle;
     EXPECT_NEAR(fit.values[1], one.sand.tool_friction, 2e-3) << one.sand.friction_angle;
-    EXPECT_NEAR(fit.scale, resistance(one.sand), 1e-3 * resistance(one.sand));
+    EXPECT_NEAR(fit.scale.value, resistance(one.sand), 1e-3 * resistance(one.sand));
     EXPECT_EQ(fit.values[2], scene.strength.yield_way);
     EXPECT_TRUE(fit.constants[0].determined());
     EXPECT_TRUE(fit.constants[1].determined());
@@ -191,6 +191,7 @@ TEST(ContactFit, APlungeOfABoxDoesNotTellItsFriction) {
     EXPECT_NEAR(fit.values[0], 36.0, 4.0 * fit.constants[0].error + 0.02);
     EXPECT_FALSE(fit.constants[1].determined());
     EXPECT_EQ(fit.constants[1].value, tool_friction);
+    EXPECT_TRUE(fit.constants[1].kept);
     EXPECT_TRUE(std::isinf(fit.constants[1].error));
   }
 }
@@ -239,14 +240,15 @@ TEST(ContactFit, AForceThatNoSandGivesHasAnAngleBeyondTheKeysRange) {
   for (Vector3d& force : felt.force) force *= 1000.0;  // millinewtons taken for newtons
   const ForceFit fit = fitted(scene, felt);
   EXPECT_GT(fit.values[0], 60.0);
-  EXPECT_NEAR(fit.scale, 1000.0 * resistance(scene.strength), 1e-3 * fit.scale);
+  EXPECT_NEAR(fit.scale.value, 1000.0 * resistance(scene.strength), 1e-3 * fit.scale.value);
   EXPECT_NEAR(fit.explained, 1.0, 1e-9);
 }
 
 /// Every second tick is let go, again and again, where there are more than memory is taken for.
 TEST(ContactLaw, KeepsAnEvenPartOfVeryManyTicks) {
   const SandStrength sand;
-  ContactLaw law({archimedes_constants, sand, values_in(sand, archimedes_constants), {true, false}}, 0.0);
+  ContactLaw law({archimedes_constants, sand, values_in(sand, archimedes_constants), {true, false}}, 0.0,
+                 0.001);
   const int ticks = 230'000;
   for (int i = 0; i < ticks; ++i) {
     const std::vector<Wrench> felt(law.grid().sands().size(),

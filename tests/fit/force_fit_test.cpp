@@ -21,9 +21,9 @@ struct PaperFit : ForceFit {
 
 PaperFit fit_force(const std::vector<FeltTick>& ticks, const ForceSettings& start, double max_force,
                    const std::vector<std::string>& names) {
-  const PaperLaw law(ticks, start, max_force);
+  const PaperLaw law(ticks, start, max_force, 0.01);
   const ForceFit fit = fit_force(law, chosen_constants(law.constants(), names));
-  return {fit, law.settings(fit.values), fit.scale, fit.scale_error};
+  return {fit, law.settings(fit.values), fit.scale.value, fit.scale.error};
 }
 
 /// A hand that goes up and down between two depths [m] and in circles, and the force that sand with these
@@ -102,10 +102,37 @@ TEST(ForceFit, SaysThatAForceInShallowSandTellsOnlyTheProduct) {
   start.k_c = 2.0;
   const PaperFit fit = fit_force(felt(paper, 0.001, 0.004, 0.05), start, no_limit, all);
   EXPECT_EQ(fit.force.k_c, start.k_c);
-  EXPECT_TRUE(std::isinf(fit.constants[1].error));
-  const double bent = 500.0 * 0.5 * (start.k_c - paper.k_c) * 0.004;  // F = K d (1 + k_c d / 2)
-  EXPECT_NEAR(fit.stiffness, 500.0, bent + 4.0 * fit.stiffness_error);
+  EXPECT_TRUE(fit.constants[1].kept);
+  EXPECT_TRUE(fit.constants[1].likely.contains(paper.k_c));
+  EXPECT_FALSE(fit.constants[0].determined());
+  EXPECT_TRUE(fit.constants[0].likely.contains(paper.k_s));
+  EXPECT_GT(std::abs(fit.force.k_s - paper.k_s), 100.0 * fit.constants[0].given_error);
+  EXPECT_NEAR(fit.stiffness, 500.0, 4.0 * fit.stiffness_error);
   EXPECT_LT(fit.stiffness_error, 10.0);
+}
+
+TEST(ForceFit, KeepsTheOnlyConstantThatWasAskedForIfItIsNotDetermined) {
+  const ForceSettings paper;
+  ForceSettings start = paper;
+  start.k_c = 0.6;
+  start.k_s = paper.k_s * paper.k_c / start.k_c;
+  const PaperFit fit = fit_force(felt(paper, 0.001, 0.004, 0.05), start, no_limit, {"k_c"});
+  EXPECT_TRUE(fit.constants[0].kept || fit.constants[0].determined());
+}
+
+TEST(ForceFit, LimitsAConstantThatIsNothing) {
+  ForceSettings sand = truth;
+  sand.k_f = 0.0;
+  const PaperFit fit = fit_force(felt(sand, 0.001, 0.05, 1.0, 4000), sand, no_limit, all);
+  EXPECT_EQ(fit.constants[2].likely.low, 0.0);
+  EXPECT_LT(fit.constants[2].likely.high, 1.0);
+}
+
+TEST(FittedConstant, OneThatIsKeptIsNotDetermined) {
+  FittedConstant one{paper_constants[2], 2, 0.75, 0.2, {0.4, 1.4}};
+  EXPECT_TRUE(one.determined());
+  one.kept = true;
+  EXPECT_FALSE(one.determined());
 }
 
 /// All of it is at the device's limit: any sand that is hard enough gives it.
@@ -129,8 +156,7 @@ TEST(ForceFit, AForceThatIsExactlyStraightTellsOnlyTheProduct) {
   ForceSettings start;
   start.k_c = 0.01;
   const PaperFit fit = fit_force(ticks, start, no_limit, all);
-  EXPECT_EQ(fit.force.k_c, start.k_c);
-  EXPECT_TRUE(std::isinf(fit.constants[1].error));
+  EXPECT_FALSE(fit.constants[1].determined());
   EXPECT_NEAR(fit.stiffness, 500.0, 0.2);
 }
 
@@ -143,8 +169,10 @@ TEST(ForceFit, SaysWhichConstantsTheRecordingDetermines) {
     EXPECT_TRUE(fit.constants[1].determined());
     EXPECT_EQ(fit.constants[2].determined(), k_f > 0.0) << fit.constants[2].value;
   }
-  EXPECT_FALSE((FittedConstant{paper_constants[2], 0.5, 0.5}.determined()));
-  EXPECT_FALSE((FittedConstant{paper_constants[2], 0.0, 0.0}.determined()));
+  FittedConstant one{paper_constants[2], 2, 1.0, 0.2, {0.6, 1.4}};
+  EXPECT_TRUE(one.determined());
+  one.likely.high = 2.1;
+  EXPECT_FALSE(one.determined());
 }
 
 /// A force without any drag, to rounding: a tiny k_f is found, and is sure to be tiny, but it is no
