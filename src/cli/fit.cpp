@@ -62,7 +62,8 @@ std::string with_unit(std::string number, const char* unit) { return *unit ? num
 
 /// Writes a value and its error, with units.
 std::string value_text(double value, double error, const char* unit) {
-  return with_unit(fmt::format(std::isnan(error) ? "{:.4g} (given)" : "{:.4g} +- {:.2g}", value, error),
+  return with_unit(std::isnan(error) ? fmt::format("{:.4g} (given)", value)
+                                     : fmt::format("{:.4g} +- {:.2g}", value, error),
                    unit);
 }
 

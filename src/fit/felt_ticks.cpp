@@ -56,7 +56,7 @@ class ContactTicks : public SimulationObserver {
     const Eigen::Vector3d motion = last_tip_ ? Eigen::Vector3d(tip - *last_tip_) : Eigen::Vector3d::Zero();
     last_tip_ = tip;
     if (turns_) turn(rotation_of(tick.hand.orientation) * own_rotation_);
-    sand_.look(run_.bed(), tip);
+    sand_.meet(run_.bed(), tip);
     for (std::size_t i = 0; i < forces_.size(); ++i)
       felt_[i] = forces_[i]->in_tick(sand_, run_.bed(), tip, motion, tick.contact);
     if (is_felt(tick)) law_.add(felt_, tick.recorded_force);

@@ -48,7 +48,8 @@ class LevelSand {
   }
 
  private:
-  /// Enough cells for the circles on which the law looks for level sand.
+  /// Enough cells for the circles on which a law looks for level sand, and for the tool's window. Which of
+  /// them it covers does not matter here.
   int cells(const Scene& scene) const {
     return 2 * static_cast<int>(std::ceil(3.0 * tool_reach(scene.tool) / cell_)) + 9;
   }

@@ -46,7 +46,7 @@ class ContactOnHand : public HandForce {
     felt.force = placement_.force_back(full.given);
     felt.due = full.limited(largest_force_).strength;
     // Cut by more than a run of the scene would cut it.
-    if (full.limited(scene_limit_).whole > largest_force_) felt.flags |= clamped_force;
+    if (full.limited(scene_limit_).strength > largest_force_) felt.flags |= clamped_force;
   }
 
  private:

@@ -146,7 +146,7 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
       highest_ = std::max(highest_, replica_.bed()(change.row, change.col));
     });
   } else {
-    interaction = sand_.look(replica_.bed(), tip);
+    interaction = sand_.meet(replica_.bed(), tip);
     sand_.lift();
     felt.flags |= deferred_sand;
     ++report_.deferred_ticks;

@@ -54,10 +54,10 @@ HWY_INLINE Vector plate_stress(const Vector& n, const Vector& u) {
 
 /// resistive_stress() of a vector of elements. If an element faces up, the plate's normal is that of its
 /// other side. An upright plate has both normals, and the polynomials give 0.192 and 0.229 when it is dragged
-/// face on. So the first value blends into the second from an upright element to one that faces up by 3
-/// degrees.
+/// face on. So the first value blends into the second from an upright element to one that faces up by 1
+/// degree.
 HWY_INLINE Vector stress(const Vector& n, const Vector& u, V tool_friction) {
-  constexpr double goes_over = 0.05;
+  constexpr double goes_over = 0.02;
   const V zero = hn::Zero(d), one = all(1.0);
   const V up = between_0_and_1(n.z * all(1.0 / goes_over));
   const Mask between = hn::And(up > zero, up < one);
@@ -77,7 +77,7 @@ HWY_INLINE Vector stress(const Vector& n, const Vector& u, V tool_friction) {
 
 /// The cosine between motion and normal below 0 over which trailing elements fade out. Otherwise the drag on
 /// an upright side that moves along itself would switch on and off as its motion trembles.
-constexpr double fade = 0.05;
+constexpr double fade = 0.02;
 
 /// The sums over all elements that make up the wrench.
 class WrenchSum {
@@ -113,58 +113,54 @@ class WrenchSum {
 };
 
 Wrench ResistiveWrench(const ResistiveTick& tick) {
-  const ToolFootprint& f = tick.footprint;
   const ToolElements& e = tick.elements;
-  const V zero = hn::Zero(d), one = all(1.0), half = all(0.5);
-  const double dx = f.cell_size();
-  // A position from the tip [m] is (x + ...) / dx columns from the window's first.
-  const V per_cell = all(1.0 / dx), col0 = all(f.axis_x() - f.first_x()),
-          row0 = all(f.axis_y() - f.first_y());
-  const V last_col = all(f.cells().cols() - 1), last_row = all(f.cells().rows() - 1),
-          stride = all(f.stride());
-  const V height0 = all(tick.plane.height - tick.tip.z()), slope_x = all(tick.plane.slope.x()),
-          slope_y = all(tick.plane.slope.y()), tip_z = all(tick.tip.z());
-  const V half_cell = all(0.5 * dx), per_touch = all(4.0 / dx);  // contact fades in over a quarter of a cell
-  const Vector motion = {all(tick.motion.x()), all(tick.motion.y()), all(tick.motion.z())};
+  const SandBefore& before = tick.before;
+  const V zero = hn::Zero(d), one = all(1.0);
+  const SandBefore::Mean& mean = before.mean();
+  const V tip_z = all(tick.tip_height), highest = all(before.highest() - tick.tip_height);
+  const Vector motion = {all(tick.motion.tip.x()), all(tick.motion.tip.y()), all(tick.motion.tip.z())};
+  const Eigen::Matrix3d& spin = tick.motion.spin;
   const auto spin_of = [&](int axis) {
-    return Vector{all(tick.spin(axis, 0)), all(tick.spin(axis, 1)), all(tick.spin(axis, 2))};
+    return Vector{all(spin(axis, 0)), all(spin(axis, 1)), all(spin(axis, 2))};
   };
   const Vector spin_x = spin_of(0), spin_y = spin_of(1), spin_z = spin_of(2);
-  const bool spins = !tick.spin.isZero(0.0);
+  const bool spins = !spin.isZero(0.0);
   double *ways_x = tick.ways, *ways_y = tick.ways + e.size(), *ways_z = tick.ways + 2 * e.size();
+  const hn::RebindToSigned<decltype(d)> di;
   WrenchSum sum;
   for (std::size_t i = 0; i < e.size(); i += lanes) {
     const int index = static_cast<int>(i);
     const Vector r = {hn::Load(d, e.x() + i), hn::Load(d, e.y() + i), hn::Load(d, e.z() + i)};
-    const V depth = height0 + slope_x * r.x + slope_y * r.y - r.z;
-    if (hn::AllFalse(d, depth > zero)) {
+    if (hn::AllFalse(d, highest > r.z)) {
       for (double* ways : {ways_x, ways_y, ways_z}) hn::Store(zero, d, ways + i);
       continue;
     }
     const Vector n = {hn::Load(d, e.normal_x() + i), hn::Load(d, e.normal_y() + i),
                       hn::Load(d, e.normal_z() + i)};
-    // The cell with the sand just outside the element.
-    const V col = Min(Max(hn::Floor(col0 + r.x * per_cell + n.x + half), zero), last_col);
-    const V row = Min(Max(hn::Floor(row0 + r.y * per_cell + n.y + half), zero), last_row);
-    const hn::RebindToSigned<decltype(d)> di;
-    // Cells are carved at their centres; beside a centre a slanting element lies higher.
-    const V slack = half_cell * (hn::Abs(n.x) + hn::Abs(n.y));
-    const V height = hn::GatherIndex(d, f.heights(0), hn::ConvertTo(di, row * stride + col));
-    const V touches = where(depth > zero, between_0_and_1((height + slack - tip_z - r.z) * per_touch + one));
-
-    const Mask in_sand = touches > zero;
     Vector way =
         Vector{hn::Load(d, ways_x + i), hn::Load(d, ways_y + i), hn::Load(d, ways_z + i)}.plus(motion);
     if (spins) way = way.plus({spin_x.dot(r), spin_y.dot(r), spin_z.dot(r)});
     const V length = Sqrt(way.dot(way)), per_length = one / Max(length, all(1e-300));
     const Vector u = way.times(where(length > zero, per_length));  // a tiny way's square may underflow
+    // The more level an element looks and moves, the more it feels the sand before its side. Here in cosines
+    // squared, of the direction halfway between both.
+    const V facing = u.dot(n);
+    const V sideways_x = n.x + u.x, sideways_y = n.y + u.y,
+            sideways = (sideways_x * sideways_x + sideways_y * sideways_y) /
+                       Max(all(2.0) * (one + facing), all(1.0));
+    const V far = (all(mean.height) + all(mean.height_ahead.x()) * u.x + all(mean.height_ahead.y()) * u.y) /
+                  Max(all(mean.weight) + all(mean.weight_ahead.x()) * u.x + all(mean.weight_ahead.y()) * u.y,
+                      all(1e-9 * mean.weight)),
+            near = hn::GatherIndex(d, before.heights(), hn::Load(di, before.side_of() + i));
+    const V depth = far + Min(sideways, one) * (near - far) - (tip_z + r.z);
+    const Mask in_sand = depth > zero;
     way = way.times(where(in_sand, Min(per_length, one)));
     hn::Store(way.x, d, ways_x + i);
     hn::Store(way.y, d, ways_y + i);
     hn::Store(way.z, d, ways_z + i);
     const V mobilised = Min(length, one);
-    const V leads = between_0_and_1(u.dot(n) * all(1.0 / fade) + one);
-    const V area = where(in_sand, hn::Load(d, e.area() + i) * touches * leads) * all(tick.resistance);
+    const V leads = between_0_and_1(facing * all(1.0 / fade) + one);
+    const V area = where(in_sand, hn::Load(d, e.area() + i) * leads) * all(tick.resistance);
     if (hn::AllFalse(d, area > zero)) continue;
     const Vector alpha = stress(n, u, all(tick.tool_friction));
     const V size = Sqrt(alpha.dot(alpha)) * area;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "rules/force.h"
+#include "sand/sand_plane.h"
 #include "sim/elastic_wrench.h"
 #include "tool/tool_surface.h"
 
@@ -19,37 +20,38 @@ double farthest_from_tip(const TriangleMesh& surface) {
   return most;
 }
 
-/// A force that goes by the plane of the sand around the tool. The tool feels it by way of an ElasticWrench,
-/// and the scene's device gives what another one makes of the limited wrench.
-class PlaneForce : public ToolForce {
+/// The force that a law asks for, as the tool feels it: by way of an ElasticWrench. The scene's device gives
+/// what another one makes of the limited wrench.
+class ElasticForce : public ToolForce {
  public:
-  explicit PlaneForce(const Scene& scene)
-      : arm_(farthest_from_tip(tool_surface(scene.tool))), device_limit_(scene.device.max_force) {
-    if (scene.tool.shape == ToolShape::sphere) sphere_radius_ = scene.tool.radius;
-    PlaneForce::turn(own_rotation(scene.tool));
-  }
+  explicit ElasticForce(const Scene& scene)
+      : arm_(farthest_from_tip(tool_surface(scene.tool))),
+        device_limit_(scene.device.max_force),
+        turns_(scene.tool.shape != ToolShape::sphere) {}
 
   void lift() override {
     on_tool_.lift();
     on_device_.lift();
     felt_rotation_ = rotation_;
   }
-  void turn(const Eigen::Matrix3d& rotation) override { rotation_ = rotation; }
+  void turn(const Eigen::Matrix3d& rotation) final {
+    if (!turns_) return;
+    rotation_ = rotation;
+    turn_surface(rotation);
+  }
 
   Wrench feel(const ToolInSand& touch) override {
-    const SandPlane plane =
-        fit_sand_plane(touch.bed, touch.tip.x(), touch.tip.y(), sphere_radius_.value_or(touch.tool.reach()));
-    if (std::isnan(plane.height)) {
-      lift();
-      return {};
-    }
-    return elastic(feel_from(plane, touch), touch.motion);
+    const Wrench asked = law(touch);
+    if (asked.stiffness > 0.0) return elastic(asked, touch.motion);
+    lift();
+    return {};
   }
 
  protected:
-  virtual Wrench feel_from(const SandPlane& plane, const ToolInSand& touch) = 0;
-
-  std::optional<double> sphere_radius_;  // m
+  /// Not called for a sphere: its tip stays its lowest point, however the hand turns it.
+  virtual void turn_surface(const Eigen::Matrix3d& rotation) = 0;
+  /// As the law asks for it; without stiffness where no sand is.
+  virtual Wrench law(const ToolInSand& touch) = 0;
 
  private:
   using Six = ElasticWrench::Six;
@@ -73,53 +75,55 @@ class PlaneForce : public ToolForce {
   }
 
   double arm_, device_limit_;  // m, N
-  Eigen::Matrix3d rotation_, felt_rotation_ = Eigen::Matrix3d::Identity();
+  bool turns_;
+  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity(), felt_rotation_ = rotation_;
   ElasticWrench on_tool_, on_device_;
 };
 
-class RftForce : public PlaneForce {
+class RftForce : public ElasticForce {
  public:
   RftForce(const Scene& scene, double cell_size)
-      : PlaneForce(scene), sand_(scene.strength), resistive_(tool_surface(scene.tool), cell_size) {
-    resistive_.turn(own_rotation(scene.tool));
+      : ElasticForce(scene),
+        sand_(scene.strength),
+        resistive_(tool_surface(scene.tool), cell_size, scene.relaxation.talus_angle) {
+    ElasticForce::turn(own_rotation(scene.tool));
   }
 
   void lift() override {
-    PlaneForce::lift();
+    ElasticForce::lift();
     resistive_.lift();
-  }
-  void turn(const Eigen::Matrix3d& rotation) override {
-    PlaneForce::turn(rotation);
-    resistive_.turn(rotation);
   }
 
  private:
-  Wrench feel_from(const SandPlane& plane, const ToolInSand& touch) override {
-    return resistive_.feel(touch.tool.footprint(), touch.tip, plane, touch.motion, sand_);
+  void turn_surface(const Eigen::Matrix3d& rotation) override { resistive_.turn(rotation); }
+  Wrench law(const ToolInSand& touch) override {
+    return resistive_.feel(touch.bed, touch.tool.footprint(), touch.tip, touch.motion, sand_);
   }
 
   SandStrength sand_;
   ResistiveForce resistive_;
 };
 
-class ArchimedesForce : public PlaneForce {
+/// It goes by the plane of the sand around the tool.
+class ArchimedesForce : public ElasticForce {
  public:
   ArchimedesForce(const Scene& scene, double cell_size)
-      : PlaneForce(scene), sand_(scene.strength), elements_(tool_surface(scene.tool), cell_size) {
-    elements_.turn(own_rotation(scene.tool));
+      : ElasticForce(scene), sand_(scene.strength), elements_(tool_surface(scene.tool), cell_size) {
+    if (scene.tool.shape == ToolShape::sphere) sphere_radius_ = scene.tool.radius;
+    ElasticForce::turn(own_rotation(scene.tool));
   }
 
   void lift() override {
-    PlaneForce::lift();
+    ElasticForce::lift();
     sunk_ = 0.0;
-  }
-  void turn(const Eigen::Matrix3d& rotation) override {
-    PlaneForce::turn(rotation);
-    elements_.turn(rotation);
   }
 
  private:
-  Wrench feel_from(const SandPlane& plane, const ToolInSand& touch) override {
+  void turn_surface(const Eigen::Matrix3d& rotation) override { elements_.turn(rotation); }
+  Wrench law(const ToolInSand& touch) override {
+    const SandPlane plane =
+        fit_sand_plane(touch.bed, touch.tip.x(), touch.tip.y(), sphere_radius_.value_or(touch.tool.reach()));
+    if (std::isnan(plane.height)) return {};
     constexpr double plate = 0.87574;
     const double yield = sand_.yield_way, per_volume = plate * resistance(sand_);
     sunk_ = std::clamp(sunk_ - touch.motion.z() / yield, 0.0, 1.0);
@@ -141,6 +145,7 @@ class ArchimedesForce : public PlaneForce {
   }
 
   SandStrength sand_;
+  std::optional<double> sphere_radius_;  // m
   ToolElements elements_;
   double sunk_ = 0.0;  // yield ways, 0 to 1
 };

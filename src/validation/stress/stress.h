@@ -13,6 +13,8 @@ StressReport stress_all(const StressOptions& options);
 void stress_device_loop(StressReport& report, const StressOptions& options);
 /// Relaxes beds that no user would draw.
 void stress_relaxation(StressReport& report, const StressOptions& options);
+/// Takes tools round closed loops in sand.
+void stress_contact_loops(StressReport& report, const StressOptions& options);
 /// Runs strokes that no hand would make.
 void stress_strokes(StressReport& report, const StressOptions& options);
 

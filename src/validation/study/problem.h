@@ -150,6 +150,10 @@ Problem mesh_problem(const ProblemOptions& options);
 // The contact force, against closed forms and the theory itself (contact_forces.cpp).
 Problem plate_force_problem(const ProblemOptions& options);
 Problem sphere_force_problem(const ProblemOptions& options);
+// The sand that a tool feels, against the theory and Coulomb's wedge (felt_sand.cpp).
+Problem leaning_problem(const ProblemOptions& options);
+Problem pulled_problem(const ProblemOptions& options);
+Problem heap_force_problem(const ProblemOptions& options);
 // The time of a tick under each force law (tick_time.cpp).
 Problem tick_problem(const ProblemOptions& options);
 // The dynamic device against an almost continuous servo loop, and whole strokes against the same in finer
