@@ -225,9 +225,9 @@ void add_fit_command(CLI::App& app, Command& chosen) {
       "lower in the tool's own furrow. fit compares the model's force with the recorded one by least\n"
       "squares. +- is half of the 68 % interval, with the other fitted constants free. Intervals allow for\n"
       "noise that stays alike for much less than the recording. A constant is determined if the force\n"
-      "depends on it and its 95 % interval lies between half and twice its value. One that is not stays at\n"
-      "the scene's value, unless the recording contradicts that. Those after 'given' hold for that value.\n"
-      "k_s and friction_angle never stay.\n"
+      "depends on it and its 95 % interval lies between half and twice its value. Any other constant keeps\n"
+      "the scene's value, unless the recording contradicts it. An error before 'given' holds only for the\n"
+      "values that are given. k_s and friction_angle are always fitted.\n"
       "Example:  sandstroke fit strokes/wscg/scene.toml --stroke tracing.h5 --set stroke.depth=0.004",
       constants_text()));
   command->callback([arguments, &chosen] { chosen = [arguments] { return fit(*arguments); }; });

@@ -117,7 +117,7 @@ ForceFit fit_force(const FeltLaw& law, const std::vector<bool>& asked) {
   fit.of_scale = law.scale();
   if (asked[0]) {
     fit.scale = scale_about(problem, asked, fit.values);
-    fit.combination = combination_about(problem, asked, fit.values);
+    fit.combination = problem.is_free == asked ? fit.scale : combination_about(problem, asked, fit.values);
   } else {
     fit.combination.powers = VectorXd::Zero(fit.values.size());
     fit.scale.value = law.numbers(fit.values)[0];

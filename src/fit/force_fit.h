@@ -21,7 +21,9 @@ struct FittedConstant {
 
   /// True if the recording determines it, whatever the other asked constants are. The value is the last
   /// fit's.
-  bool determined() const { return acts && !kept && likely.low >= 0.5 * value && likely.high <= 2.0 * value; }
+  bool determined() const {
+    return acts && !kept && value > 0.0 && likely.low >= 0.5 * value && likely.high <= 2.0 * value;
+  }
 };
 
 /// The force constants that come nearest to a recorded force.

@@ -65,15 +65,14 @@ std::optional<std::int64_t> iso_time(std::string_view text) {
   std::replace(plain.begin(), plain.end(), ',', '.');
   if (plain.back() == 'Z') plain.pop_back();
   using Nanoseconds = std::chrono::nanoseconds;
-  // These checks are strict: the library takes any number of digits for the seconds, and any byte for a digit
-  // of the zone.
-  if (has_shape(plain, "00:00:00")) {
-    if (!is_fraction_and_zone(std::string_view(plain).substr(8))) return std::nullopt;
-    return parsed<Nanoseconds>(plain, "%T");
-  }
+  // Strict, because the library takes any number of digits for the seconds, and any byte for a digit of the
+  // zone.
+  const auto is_written_as = [&](std::string_view shape) {
+    return has_shape(plain, shape) && is_fraction_and_zone(std::string_view(plain).substr(shape.size()));
+  };
+  if (is_written_as("00:00:00")) return parsed<Nanoseconds>(plain, "%T");
   if (plain.size() > 10) plain[10] = 'T';
-  if (!has_shape(plain, "0000-00-00T00:00:00") || !is_fraction_and_zone(std::string_view(plain).substr(19)))
-    return std::nullopt;
+  if (!is_written_as("0000-00-00T00:00:00")) return std::nullopt;
   const int year = whole<int>(std::string_view(plain).substr(0, 4)).value_or(0);
   if (year < 1700 || year > 2250) return std::nullopt;  // 64 bits do not hold the ns of other years
   using Time = date::sys_time<Nanoseconds>;

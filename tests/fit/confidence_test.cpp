@@ -7,6 +7,7 @@
 
 #include "core/elementary.h"
 #include "core/hash.h"
+#include "fit/contact_scene.h"
 #include "fit/felt_ticks.h"
 #include "fit/force_fit.h"
 
@@ -79,20 +80,8 @@ PaperLaw paper_law(const ForceSettings& start) {
 }
 
 ContactLaw rft_law() {
-  Scene scene;
-  scene.bed.width = 0.16;
-  scene.bed.depth = 0.12;
-  scene.bed.cols = 80;
-  scene.bed.rows = 60;
-  apply_model_preset(scene);
-  scene.force.law = ForceLaw::rft;
-  scene.tool.shape = ToolShape::sphere;
-  scene.tool.profile = ToolProfile::sphere;
-  scene.tool.width = 0.03;
-  scene.tool.solid = true;
-  scene.displacement.deposit = Deposit::outward;
+  Scene scene = scene_with(ForceLaw::rft, ToolShape::sphere);
   scene.device.servo_rate = 1.0 / period;
-  scene.device.max_force = 0.0;
   Stroke stroke;
   for (Eigen::Index i = 0; i < ticks; ++i) {
     stroke.time.push_back(period * static_cast<double>(i));

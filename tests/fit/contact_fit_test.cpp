@@ -5,6 +5,7 @@
 #include <random>
 
 #include "core/error.h"
+#include "fit/contact_scene.h"
 #include "fit/felt_ticks.h"
 #include "fit/fitted_law.h"
 
@@ -14,24 +15,6 @@ namespace {
 using Eigen::Vector3d;
 
 enum class Way { draws, plunges };
-
-Scene scene_with(ForceLaw law, ToolShape shape) {
-  Scene scene;
-  scene.bed.width = 0.16;
-  scene.bed.depth = 0.12;
-  scene.bed.cols = 80;
-  scene.bed.rows = 60;
-  apply_model_preset(scene);
-  scene.force.law = law;
-  scene.tool.shape = shape;
-  if (shape == ToolShape::sphere) scene.tool.profile = ToolProfile::sphere;
-  scene.tool.width = 0.03;
-  scene.tool.solid = true;
-  scene.displacement.deposit = Deposit::outward;
-  scene.device.servo_rate = 500.0;
-  scene.device.max_force = 0.0;
-  return scene;
-}
 
 /// Two seconds of a hand that goes up and down in the sand, and in bends where it draws.
 Stroke way_of(Way hand) {

@@ -173,6 +173,7 @@ TEST(ForceFit, SaysWhichConstantsTheRecordingDetermines) {
   EXPECT_TRUE(one.determined());
   one.likely.high = 2.1;
   EXPECT_FALSE(one.determined());
+  EXPECT_FALSE((FittedConstant{paper_constants[2], 2, 0.0, 0.0, {}}.determined()));
 }
 
 /// A force without any drag, to rounding: a tiny k_f is found, and is sure to be tiny, but it is no
