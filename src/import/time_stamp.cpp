@@ -27,9 +27,13 @@ std::optional<Value> whole(std::string_view text) {
   return value;
 }
 
-/// True if a text begins as `shape`, in which 0 stands for any digit.
+/// True if a text begins as `shape`, in which 0 stands for any digit, and 5 for one of 0 to 5.
 bool has_shape(std::string_view text, std::string_view shape) {
-  const auto fits = [](char one, char c) { return one == '0' ? c >= '0' && c <= '9' : c == one; };
+  const auto fits = [](char one, char c) {
+    if (one == '0') return c >= '0' && c <= '9';
+    if (one == '5') return c >= '0' && c <= '5';
+    return c == one;
+  };
   return text.size() >= shape.size() && std::equal(shape.begin(), shape.end(), text.begin(), fits);
 }
 
@@ -65,12 +69,12 @@ std::optional<std::int64_t> iso_time(std::string_view text) {
   std::replace(plain.begin(), plain.end(), ',', '.');
   if (plain.back() == 'Z') plain.pop_back();
   using Nanoseconds = std::chrono::nanoseconds;
-  // Strict, because the library takes any number of digits for the seconds, and any byte for a digit of the
-  // zone.
+  // Strict, because the library takes any number of digits for the seconds, any byte for a digit of the zone,
+  // and 60 minutes in a time of day.
   const auto is_written_as = [&](std::string_view shape) {
     return has_shape(plain, shape) && is_fraction_and_zone(std::string_view(plain).substr(shape.size()));
   };
-  if (is_written_as("00:00:00")) return parsed<Nanoseconds>(plain, "%T");
+  if (is_written_as("00:50:50")) return parsed<Nanoseconds>(plain, "%T");
   if (plain.size() > 10) plain[10] = 'T';
   if (!is_written_as("0000-00-00T00:00:00")) return std::nullopt;
   const int year = whole<int>(std::string_view(plain).substr(0, 4)).value_or(0);
