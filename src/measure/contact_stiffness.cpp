@@ -1,6 +1,5 @@
 #include "measure/contact_stiffness.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,16 +40,16 @@ class LevelSand {
     sand_.look(bed_, Vector3d::Zero());
   }
 
-  /// The wrench at a depth [m], after the tool has yielded in a direction and moved by `then` [m].
-  Wrench at(double depth, const Vector3d& yielded, const Vector3d& then) {
+  /// The wrench at a depth [m], after the tool has yielded in a direction.
+  Wrench at(double depth, const Vector3d& yielded) {
     const Vector3d tip(0.0, 0.0, -depth - sand_.tool().lowest());
     law_->lift();
-    const Wrench full = law_->in_tick(sand_, bed_, tip, yield_ * yielded, true);
-    return then.isZero(0.0) ? full : law_->in_tick(sand_, bed_, tip + then, then, true);
+    return law_->in_tick(sand_, bed_, tip, yield_ * yielded, true);
   }
 
  private:
-  /// Enough cells for the circles on which the law looks for level sand.
+  /// Enough cells for the circles on which a law looks for level sand, and for the tool's window. Which of
+  /// them it covers does not matter here.
   int cells(const Scene& scene) const {
     return 2 * static_cast<int>(std::ceil(3.0 * tool_reach(scene.tool) / cell_)) + 9;
   }
@@ -64,30 +63,19 @@ class LevelSand {
 }  // namespace
 
 double contact_stiffness(const Scene& scene, double max_force, bool turns) {
-  constexpr double seen = 2e-5;    // m: about what devices measure
   constexpr double deepest = 1.0;  // m; here a strength that never reaches max_force has stopped growing
   constexpr int all_around = 400, each_when_turned = 100;
   // deg, like tool.orientation: upright and leaning tools, turned in several directions.
   const std::array<Vector3d, 6> leans = {Vector3d(10.0, 20.0, 30.0), {-35.0, 5.0, 60.0}, {0.0, 45.0, 0.0},
                                          {60.0, -10.0, 20.0},        {90.0, 0.0, 45.0},  {5.0, 80.0, -15.0}};
-  const double step = std::min(0.05 * scene.strength.yield_way, seen);
   const auto stiffest = [&](const Scene& posed, int count) {
     LevelSand sand(posed);
     double most = 0.0;
     for (const Vector3d& yielded : directions(count)) {
       const double depth = std::min(deepest, boundary_of_positive([&](double deep) {
-                                      return sand.at(deep, yielded, Vector3d::Zero()).strength < max_force;
+                                      return sand.at(deep, yielded).strength < max_force;
                                     }));
-      const Vector3d before = sand.at(depth, yielded, Vector3d::Zero()).limited(max_force).force;
-      for (const double sign : {-1.0, 1.0}) {
-        Eigen::Matrix3d change;
-        for (int axis = 0; axis < 3; ++axis)
-          change.col(axis) =
-              (sand.at(depth, yielded, sign * step * Vector3d::Unit(axis)).limited(max_force).force -
-               before) /
-              step;
-        most = std::max(most, change.jacobiSvd().singularValues()[0]);
-      }
+      most = std::max(most, sand.at(depth, yielded).limited(max_force).stiffness);
     }
     return most;
   };

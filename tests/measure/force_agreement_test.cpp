@@ -57,6 +57,13 @@ TEST(ForceAgreement, FindsByWhatTheRunComesLater) {
   }
 }
 
+TEST(ForceAgreement, FindsALagInALongTrace) {
+  std::vector<ForcePair> ticks;
+  for (int k = 0; k < 300'000; ++k) ticks.push_back({1e-3 * k, spiral(k, 23), spiral(k)});
+  EXPECT_NEAR(force_agreement(ticks)->lag, 23e-3, 1e-12);
+  EXPECT_NEAR(force_agreement(ticks)->best_correlation, 1.0, 1e-9);
+}
+
 TEST(ForceAgreement, HasNoLagWhereTheyAgreeEverBetterFurtherApart) {
   std::vector<ForcePair> ticks;  // 1.25 s apart, of a period of 5 s
   for (int k = 0; k < 3000; ++k) {
