@@ -9,7 +9,9 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -93,6 +95,14 @@ std::string one_line(const std::string& lines) {
       line += "; ";
   }
   return line;
+}
+
+bool is_installed(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (access((folder + "/" + name).c_str(), X_OK) == 0) return true;
+  return false;
 }
 
 std::optional<FedChild> FedChild::start(const std::vector<std::string>& words) {

@@ -29,6 +29,9 @@ struct ChildOutputs {
   std::unique_ptr<std::FILE, Close> out, err;
 };
 
+/// Whether there is a program of this name on PATH.
+bool is_installed(const std::string& name);
+
 /// Another program that is fed through its standard input. `words` are its name, found on PATH, and its
 /// arguments; no shell splits them. The destructor kills a program that nobody waited for.
 class FedChild {

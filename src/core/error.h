@@ -48,4 +48,15 @@ template <class... Args>
   throw Error(ErrorKind::io, fmt::format(sentence, std::forward<Args>(args)...));
 }
 
+/// The result of `make`, or an empty one where the file does not hold it (Error: input).
+template <class Make>
+auto as_far_as_known(const Make& make) -> decltype(make()) {
+  try {
+    return make();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    return {};
+  }
+}
+
 }  // namespace sandstroke

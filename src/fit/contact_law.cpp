@@ -10,8 +10,8 @@ void ContactLaw::add(const std::vector<Wrench>& felt, const Eigen::Vector3d& rec
   if (ticks_++ % every_ != 0) return;
   for (std::size_t i = 0; i < felt.size(); ++i) {
     const double all = resistance(grid_.sands()[i]);
-    felt_.emplace_back(felt[i].force.x() / all, felt[i].force.y() / all, felt[i].force.z() / all,
-                       felt[i].strength / all);
+    const Eigen::Vector3d& given = felt[i].given;
+    felt_.emplace_back(given.x() / all, given.y() / all, given.z() / all, felt[i].strength / all);
   }
   recorded_.push_back(recorded);
   if (recorded_.size() <= most_fitted_ticks) return;

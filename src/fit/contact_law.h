@@ -26,6 +26,8 @@ class ContactLaw : public FeltLaw {
   Eigen::VectorXd values(const Eigen::VectorXd& numbers) const override;
   Range range(std::size_t constant) const override { return grid_.range(constant); }
   Eigen::Matrix3Xd recorded() const override;
+  /// A limit cuts the sand's own force. A device goes there by an elastic way of its own (contact_force.cpp),
+  /// which is left out: it changes the friction angle by some 0.01 deg where the limit acts all the time.
   Eigen::Matrix3Xd forces(const Eigen::VectorXd& values, DeviceLimit limit) const override;
   double max_force() const override { return max_force_; }
   std::int64_t ticks() const override { return ticks_; }

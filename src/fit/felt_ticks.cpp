@@ -33,6 +33,7 @@ class ContactTicks : public SimulationObserver {
         own_rotation_(own_rotation(run.scene().tool)),
         sand_(run.scene().tool, run.scene().displacement) {
     Scene scene = run.scene();
+    scene.device.max_force = 0.0;  // the law cuts what a device of any strength would give
     for (const SandStrength& sand : law.grid().sands()) {
       scene.strength = sand;
       forces_.push_back(make_contact_force(scene, run.bed().cell_size()));
@@ -56,7 +57,7 @@ class ContactTicks : public SimulationObserver {
     const Eigen::Vector3d motion = last_tip_ ? Eigen::Vector3d(tip - *last_tip_) : Eigen::Vector3d::Zero();
     last_tip_ = tip;
     if (turns_) turn(rotation_of(tick.hand.orientation) * own_rotation_);
-    sand_.look(run_.bed(), tip);
+    sand_.meet(run_.bed(), tip);
     for (std::size_t i = 0; i < forces_.size(); ++i)
       felt_[i] = forces_[i]->in_tick(sand_, run_.bed(), tip, motion, tick.contact);
     if (is_felt(tick)) law_.add(felt_, tick.recorded_force);

@@ -23,6 +23,7 @@ struct DeviceSpecification {
   int switches = 0;               ///< number of switches; 0 = none, or unknown
   bool measures_velocity = false;
   bool measures_orientation = false;
+  bool hand_feels = true;  ///< false: a pointer, whose force is only shown
 };
 
 /// One reading of a device, as the device gives it: no scaling, no filter.

@@ -7,8 +7,8 @@
 namespace sandstroke {
 
 bool RecordedForce::unaltered(std::size_t sample) const {
-  constexpr std::uint32_t altered =
-      clamped_force | ramped_force | rate_limited_force | refused_force | deferred_sand | interlocked_force;
+  constexpr std::uint32_t altered = clamped_force | ramped_force | rate_limited_force | refused_force |
+                                    deferred_sand | interlocked_force | unfelt_force;
   return stroke_.flags.empty() || (stroke_.flags[sample] & altered) == 0;
 }
 

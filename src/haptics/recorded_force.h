@@ -11,8 +11,8 @@ class RecordedForce {
   explicit RecordedForce(const Stroke& placed)
       : stroke_(placed), sign_(placed.force_sign == ForceSign::by_hand ? -1.0 : 1.0) {}
   /// The force [N] on the device, in the stroke's frame, `time` [s] after its first sample. Later calls must
-  /// not have earlier times. NaN if none was recorded, if the recorder altered it (SampleFlag), and between
-  /// samples that are not joined.
+  /// not have earlier times. NaN if none was recorded, if the recorder altered it or no hand felt it
+  /// (SampleFlag), and between samples that are not joined.
   Eigen::Vector3d at(double time);
 
  private:

@@ -28,6 +28,8 @@ const char* stop_reason_text(StopReason reason) {
       return "the stroke played was over";
     case StopReason::stop_switch:
       return "the stop switch was pressed";
+    case StopReason::finish:
+      return "Finish was pressed";
     case StopReason::key:
       return "a key was pressed";
     case StopReason::signal:
@@ -49,11 +51,11 @@ const char* stop_reason_text(StopReason reason) {
 }
 
 std::optional<StopReason> stop_reason_of(std::string_view text) {
-  for (int i = 0; i <= static_cast<int>(StopReason::cut_off); ++i)
+  for (int i = 0; i <= static_cast<int>(StopReason::finish); ++i)
     if (const auto reason = static_cast<StopReason>(i); text == stop_reason_text(reason)) return reason;
   return std::nullopt;
 }
 
-bool is_complete(StopReason reason) { return reason <= StopReason::key; }
+bool is_complete(StopReason reason) { return reason <= StopReason::key || reason == StopReason::finish; }
 
 }  // namespace sandstroke

@@ -25,6 +25,7 @@ enum SampleFlag : std::uint32_t {
   refused_force = 32,       ///< the force was no number: none was given
   deferred_sand = 64,       ///< the tool did not displace, because the relaxing bed was too far behind
   interlocked_force = 128,  ///< no force: the tool had not left the sand since a beginning
+  unfelt_force = 256,       ///< the force is the model's: the hand was a pointer, which feels none
 };
 
 /// Added to the name of STROKE.h5 for the journal that is written while it is recorded.
@@ -88,8 +89,8 @@ struct Lateness {
   double mean = 0.0, p99 = 0.0, max = 0.0;  ///< s
 };
 
-/// Why a recording ended. Only the first four were asked for. cut_off: nothing was left to say why (kill -9,
-/// a power failure).
+/// Why a recording ended. Only the first four and `finish` (a button on a page) were asked for. cut_off:
+/// nothing was left to say why (kill -9, a power failure).
 enum class StopReason {
   duration,
   stroke_end,
@@ -101,7 +102,8 @@ enum class StopReason {
   disk,
   no_number,
   error,
-  cut_off
+  cut_off,
+  finish
 };
 /// The reason as text, for people and files: "the time was up", ...
 const char* stop_reason_text(StopReason reason);

@@ -25,6 +25,7 @@ void visit_header(Header& header, const Visit& visit) {
   visit("device_switches", header.device.switches);
   visit("device_measures_velocity", header.device.measures_velocity);
   visit("device_measures_orientation", header.device.measures_orientation);
+  visit("device_hand_feels", header.device.hand_feels);
   visit("scheduling", header.scheduling.policy);
   visit("scheduling_priority", header.scheduling.priority);
   visit("scheduling_advice", header.scheduling.advice);

@@ -286,6 +286,35 @@ Path spline_path(const std::vector<Vector2d>& points) {
   return path;
 }
 
+/// The way along a letter's line, whose curves a font stores as a few short lines: a spline runs through
+/// them. Corners stay, and so do lines much longer than the next.
+Path letter_path(const std::vector<Vector2d>& line) {
+  constexpr double sharpest = 0.64;  // cosine of 50 deg: a curve's lines turn by less, corners by more
+  constexpr double longest = 2.5;    // times the next line
+  Path path;
+  std::vector<Vector2d> smooth = {line.front()};
+  const auto end_smooth = [&] {
+    Path part;
+    if (smooth.size() > 2)
+      part = spline_path(smooth);
+    else if (smooth.size() == 2)
+      part = {Curve::line(smooth[0], smooth[1])};
+    path.insert(path.end(), part.begin(), part.end());
+    smooth = {smooth.back()};
+  };
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    smooth.push_back(line[i]);
+    if (i + 1 == line.size()) break;
+    const Vector2d before = line[i] - line[i - 1], after = line[i + 1] - line[i];
+    const double ratio = before.norm() / after.norm();
+    if (before.dot(after) < sharpest * before.norm() * after.norm() || ratio > longest ||
+        ratio < 1.0 / longest)
+      end_smooth();
+  }
+  end_smooth();
+  return path;
+}
+
 /// One path per pen stroke.
 std::vector<Path> text_paths(const ScriptText& text) {
   const double angle = to_radians(text.angle);
@@ -299,10 +328,10 @@ std::vector<Path> text_paths(const ScriptText& text) {
       return text.at + (x + p.x() * text.height) * along + p.y() * text.height * up;
     };
     for (const std::vector<Vector2d>& line : drawn.polylines) {
-      Path path;
-      for (std::size_t i = 0; i + 1 < line.size(); ++i)
-        if (line[i] != line[i + 1]) path.push_back(Curve::line(place(line[i]), place(line[i + 1])));
-      if (length_of(path) > 0.0) paths.push_back(std::move(path));
+      std::vector<Vector2d> points;
+      for (const Vector2d& point : line)
+        if (points.empty() || place(point) != points.back()) points.push_back(place(point));
+      if (points.size() > 1) paths.push_back(letter_path(points));
     }
     x += drawn.width * text.height + text.spacing;
   }

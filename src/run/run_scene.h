@@ -18,7 +18,7 @@ struct RunOptions {
   bool progress = false;                     ///< a bar on the terminal
   std::optional<SecondSolution> second;      ///< if given, estimate the error with this solution
   /// Gives another observer of the simulation that is about to run. It must outlive the run. Empty: none.
-  std::function<SimulationObserver&(const Simulation&)> onlooker;
+  std::function<SimulationObserver&(Simulation&)> onlooker;
   bool error_map = false;        ///< with `second`: keep the error of each cell's height
   std::optional<Stroke> stroke;  ///< samples to play instead of the file that the scene's [stroke] names
   std::optional<HeightField> surface;  ///< to start from, instead of the scene's surface

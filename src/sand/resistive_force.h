@@ -3,9 +3,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "sand/sand_plane.h"
-#include "sand/tool_footprint.h"
-#include "tool/tool_elements.h"
+#include "sand/sand_before.h"
 
 namespace sandstroke {
 
@@ -34,6 +32,11 @@ double resistance(const SandStrength& sand);
 Eigen::Vector3d resistive_stress(const Eigen::Vector3d& normal, const Eigen::Vector3d& motion,
                                  double tool_friction);
 
+/// tan(45 deg + talus / 2): the reach of the wedge that slides before an upright face, over its depth
+/// (Rankine). The talus angle [deg] counts, not the friction angle, so that a tool's force stays proportional
+/// to resistance(), whatever the friction angle.
+double wedge_reach(double talus_angle);
+
 /// The force of sand on a tool, with its torque, stiffness and energy.
 struct Wrench {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N
@@ -41,10 +44,15 @@ struct Wrench {
   double stiffness = 0.0;                            ///< N/m, growth of the force with the tool's way
   double stored = 0.0;                               ///< J that the sand may give back, at most
   double strength = 0.0;  ///< N, sum of the sizes of all elements' forces once the tool has yielded
+  double whole = 0.0;     ///< N, size of the force on the whole tool once it has yielded
+  Eigen::Vector3d given = Eigen::Vector3d::Zero();  ///< N, what the scene's device gives of the force
+  double given_stored = 0.0;                        ///< J, as stored, of that
 
-  /// The wrench of weaker sand, whose strength is at most max_force [N], as a device of that maximum gives it
-  /// (0: unchanged). If only the force were cut, the sand would stay as stiff as before when the tool
-  /// reverses, and reverse the force late.
+  /// The wrench of weaker sand, whose force on the whole tool is at most max_force [N], as a device of that
+  /// maximum is to give it (0: unchanged). If only the force were cut, the sand would stay as stiff as before
+  /// when the tool reverses, and reverse the force late. Stiffness and strength are those of sand in which
+  /// the elements' forces add up to no more than max_force, so a tool whose elements push against each other
+  /// is not stiffer than the device can bear.
   Wrench limited(double max_force) const;
 };
 
@@ -60,21 +68,27 @@ VolumeBelow volume_below(const ToolElements& elements, double height, const Eige
 /// Resistive force theory over the surface that touches sand. The theory uses a direction of motion and no
 /// speed. The direction here is each element's displacement through the sand since it met the sand, in units
 /// of yield_way, and cut to length 1 (a projection). So the force does not depend on speed, stays while the
-/// tool rests, and reverses within yield_way when the tool does. In steady motion it is the theory's. Depths
-/// count from the plane around the tool. An element touches sand that reaches it from beside or below. The
-/// force ignores that sand was disturbed before, and that one tooth shields the next.
+/// tool rests, and reverses within yield_way when the tool does. In steady motion it is the theory's.
+///
+/// An element's depth counts from the sand before its side (SandBefore); if it looks down or up, from the
+/// sand around the tool with its slope, and more from the sand ahead. All elements below that height are in
+/// the sand. So sand covers a tool that goes deep: faces that look up feel the sand that a height field cuts
+/// away above them. The force ignores that sand was loosened before, and that one tooth shields the next.
 class ResistiveForce {
  public:
-  /// surface: in its own frame, tip at the origin. element_size [m].
-  ResistiveForce(const TriangleMesh& surface, double element_size);
+  /// surface: in its own frame, tip at the origin. element_size [m]. talus_angle [deg]: of the sand.
+  ResistiveForce(const TriangleMesh& surface, double element_size, double talus_angle = 30.0);
 
   /// Sets the tool's orientation in the bed. The next feel() counts the turn as motion, unless the tool was
   /// lifted.
-  void turn(const Eigen::Matrix3d& rotation) { elements_.turn(rotation); }
+  void turn(const Eigen::Matrix3d& rotation) {
+    elements_.turn(rotation);
+    before_.turn(rotation);
+  }
 
-  /// Returns the wrench after the tool has moved by `motion` [m] to where the footprint lies, with its tip at
-  /// `tip` [m].
-  Wrench feel(const ToolFootprint& footprint, const Eigen::Vector3d& tip, const SandPlane& plane,
+  /// Returns the wrench after the tool has moved by `motion` [m] to where it displaced last, with its tip at
+  /// `tip` [m]. The footprint's heights are the bed's.
+  Wrench feel(const HeightField& bed, const ToolFootprint& footprint, const Eigen::Vector3d& tip,
               const Eigen::Vector3d& motion, const SandStrength& sand);
   /// Tells that the tool touches nothing: forgets the elements' displacements.
   void lift();
@@ -83,6 +97,8 @@ class ResistiveForce {
 
  private:
   ToolElements elements_;
+  SandBefore before_;
+  double wedge_;
   hwy::AlignedFreeUniquePtr<double[]> ways_;  // 3 columns: x, y, z
   Eigen::Matrix3d felt_rotation_ = Eigen::Matrix3d::Identity();
   bool felt_ = false;  // since the last lift()

@@ -5,6 +5,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "rules/force.h"
 #include "sand/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -53,10 +54,10 @@ HWY_INLINE Vector plate_stress(const Vector& n, const Vector& u) {
 
 /// resistive_stress() of a vector of elements. If an element faces up, the plate's normal is that of its
 /// other side. An upright plate has both normals, and the polynomials give 0.192 and 0.229 when it is dragged
-/// face on. So the first value blends into the second from an upright element to one that faces up by 3
-/// degrees.
+/// face on. So the first value blends into the second from an upright element to one that faces up by 1
+/// degree.
 HWY_INLINE Vector stress(const Vector& n, const Vector& u, V tool_friction) {
-  constexpr double goes_over = 0.05;
+  constexpr double goes_over = 0.02;
   const V zero = hn::Zero(d), one = all(1.0);
   const V up = between_0_and_1(n.z * all(1.0 / goes_over));
   const Mask between = hn::And(up > zero, up < one);
@@ -76,97 +77,100 @@ HWY_INLINE Vector stress(const Vector& n, const Vector& u, V tool_friction) {
 
 /// The cosine between motion and normal below 0 over which trailing elements fade out. Otherwise the drag on
 /// an upright side that moves along itself would switch on and off as its motion trembles.
-constexpr double fade = 0.05;
+constexpr double fade = 0.02;
 
 /// The sums over all elements that make up the wrench.
 class WrenchSum {
  public:
   HWY_INLINE WrenchSum() {}  // an implicit one would not have the instruction set's attributes
-  /// size: of an element's force per depth [N/m], once it has fully yielded; `mobilised` is the part of it
-  /// that acts.
-  HWY_INLINE void add(int index, const Vector& r, const Vector& force, V size, V depth, V mobilised) {
+  /// whole: an element's force once it has fully yielded, `size` [N/m] per depth.
+  HWY_INLINE void add(int index, const Vector& r, const Vector& force, const Vector& whole, V size, V depth) {
     force_x_.add(index, force.x);
     force_y_.add(index, force.y);
     force_z_.add(index, force.z);
     torque_x_.add(index, r.y * force.z - r.z * force.y);
     torque_y_.add(index, r.z * force.x - r.x * force.z);
     torque_z_.add(index, r.x * force.y - r.y * force.x);
-    const V full = size * Max(depth, hn::Zero(d));
+    whole_x_.add(index, whole.x);
+    whole_y_.add(index, whole.y);
+    whole_z_.add(index, whole.z);
     growth_.add(index, size);
-    strength_.add(index, full);
-    amount_.add(index, full * mobilised);
+    strength_.add(index, size * Max(depth, hn::Zero(d)));
   }
   Wrench total(double yield_way) const {
-    return {{force_x_.total(), force_y_.total(), force_z_.total()},
-            {torque_x_.total(), torque_y_.total(), torque_z_.total()},
-            growth_.total() + strength_.total() / yield_way,
-            0.5 * yield_way * amount_.total(),
-            strength_.total()};
+    Wrench wrench;
+    wrench.force << force_x_.total(), force_y_.total(), force_z_.total();
+    wrench.torque << torque_x_.total(), torque_y_.total(), torque_z_.total();
+    wrench.strength = strength_.total();
+    wrench.stiffness = growth_.total() + wrench.strength / yield_way;
+    wrench.whole = length_of({whole_x_.total(), whole_y_.total(), whole_z_.total()});
+    return wrench;
   }
 
  private:
-  LaneSum force_x_, force_y_, force_z_, torque_x_, torque_y_, torque_z_, growth_, strength_, amount_;
+  LaneSum force_x_, force_y_, force_z_, torque_x_, torque_y_, torque_z_, whole_x_, whole_y_, whole_z_,
+      growth_, strength_;
 };
 
 Wrench ResistiveWrench(const ResistiveTick& tick) {
-  const ToolFootprint& f = tick.footprint;
   const ToolElements& e = tick.elements;
-  const V zero = hn::Zero(d), one = all(1.0), half = all(0.5);
-  const double dx = f.cell_size();
-  // A position from the tip [m] is (x + ...) / dx columns from the window's first.
-  const V per_cell = all(1.0 / dx), col0 = all(f.axis_x() - f.first_x()),
-          row0 = all(f.axis_y() - f.first_y());
-  const V last_col = all(f.cells().cols() - 1), last_row = all(f.cells().rows() - 1),
-          stride = all(f.stride());
-  const V height0 = all(tick.plane.height - tick.tip.z()), slope_x = all(tick.plane.slope.x()),
-          slope_y = all(tick.plane.slope.y()), tip_z = all(tick.tip.z());
-  const V half_cell = all(0.5 * dx), per_touch = all(4.0 / dx);  // contact fades in over a quarter of a cell
-  const Vector motion = {all(tick.motion.x()), all(tick.motion.y()), all(tick.motion.z())};
+  const SandBefore& before = tick.before;
+  const V zero = hn::Zero(d), one = all(1.0);
+  const SandBefore::Mean& mean = before.mean();
+  const V slope_x = all(before.slope().x()), slope_y = all(before.slope().y());
+  const V tip_z = all(tick.tip_height), highest = all(before.highest() - tick.tip_height);
+  const Vector motion = {all(tick.motion.tip.x()), all(tick.motion.tip.y()), all(tick.motion.tip.z())};
+  const Eigen::Matrix3d& spin = tick.motion.spin;
   const auto spin_of = [&](int axis) {
-    return Vector{all(tick.spin(axis, 0)), all(tick.spin(axis, 1)), all(tick.spin(axis, 2))};
+    return Vector{all(spin(axis, 0)), all(spin(axis, 1)), all(spin(axis, 2))};
   };
   const Vector spin_x = spin_of(0), spin_y = spin_of(1), spin_z = spin_of(2);
-  const bool spins = !tick.spin.isZero(0.0);
+  const bool spins = !spin.isZero(0.0);
   double *ways_x = tick.ways, *ways_y = tick.ways + e.size(), *ways_z = tick.ways + 2 * e.size();
+  const hn::RebindToSigned<decltype(d)> di;
   WrenchSum sum;
   for (std::size_t i = 0; i < e.size(); i += lanes) {
     const int index = static_cast<int>(i);
     const Vector r = {hn::Load(d, e.x() + i), hn::Load(d, e.y() + i), hn::Load(d, e.z() + i)};
-    const V depth = height0 + slope_x * r.x + slope_y * r.y - r.z;
-    if (hn::AllFalse(d, depth > zero)) {
+    const V rise = slope_x * r.x + slope_y * r.y;
+    if (hn::AllFalse(d, highest + Max(rise, zero) > r.z)) {
       for (double* ways : {ways_x, ways_y, ways_z}) hn::Store(zero, d, ways + i);
       continue;
     }
     const Vector n = {hn::Load(d, e.normal_x() + i), hn::Load(d, e.normal_y() + i),
                       hn::Load(d, e.normal_z() + i)};
-    // The cell with the sand just outside the element.
-    const V col = Min(Max(hn::Floor(col0 + r.x * per_cell + n.x + half), zero), last_col);
-    const V row = Min(Max(hn::Floor(row0 + r.y * per_cell + n.y + half), zero), last_row);
-    const hn::RebindToSigned<decltype(d)> di;
-    // Cells are carved at their centres; beside a centre a slanting element lies higher.
-    const V slack = half_cell * (hn::Abs(n.x) + hn::Abs(n.y));
-    const V height = hn::GatherIndex(d, f.heights(0), hn::ConvertTo(di, row * stride + col));
-    const V touches = where(depth > zero, between_0_and_1((height + slack - tip_z - r.z) * per_touch + one));
-
-    const Mask in_sand = touches > zero;
     Vector way =
         Vector{hn::Load(d, ways_x + i), hn::Load(d, ways_y + i), hn::Load(d, ways_z + i)}.plus(motion);
     if (spins) way = way.plus({spin_x.dot(r), spin_y.dot(r), spin_z.dot(r)});
     const V length = Sqrt(way.dot(way)), per_length = one / Max(length, all(1e-300));
     const Vector u = way.times(where(length > zero, per_length));  // a tiny way's square may underflow
+    // The more level an element looks and moves, the more it feels the sand before its side. Here in cosines
+    // squared, of the direction halfway between both.
+    const V facing = u.dot(n);
+    const V sideways_x = n.x + u.x, sideways_y = n.y + u.y,
+            sideways = (sideways_x * sideways_x + sideways_y * sideways_y) /
+                       Max(all(2.0) * (one + facing), all(1.0));
+    const V far = (all(mean.height) + all(mean.height_ahead.x()) * u.x + all(mean.height_ahead.y()) * u.y) /
+                  Max(all(mean.weight) + all(mean.weight_ahead.x()) * u.x + all(mean.weight_ahead.y()) * u.y,
+                      all(1e-9 * mean.weight)),
+            near = hn::GatherIndex(d, before.heights(), hn::Load(di, before.side_of() + i));
+    const V below = far + rise + Min(sideways, one) * (near - far - rise) - (tip_z + r.z);
+    const Mask in_sand = hn::And(below > zero, near > all(-1e300));
+    const V depth = where(in_sand, below);
     way = way.times(where(in_sand, Min(per_length, one)));
     hn::Store(way.x, d, ways_x + i);
     hn::Store(way.y, d, ways_y + i);
     hn::Store(way.z, d, ways_z + i);
     const V mobilised = Min(length, one);
-    const V leads = between_0_and_1(u.dot(n) * all(1.0 / fade) + one);
-    const V area = where(in_sand, hn::Load(d, e.area() + i) * touches * leads) * all(tick.resistance);
+    const V leads = between_0_and_1(facing * all(1.0 / fade) + one);
+    const V area = where(in_sand, hn::Load(d, e.area() + i) * leads) * all(tick.resistance);
     if (hn::AllFalse(d, area > zero)) continue;
     const Vector alpha = stress(n, u, all(tick.tool_friction));
     const V size = Sqrt(alpha.dot(alpha)) * area;
-    sum.add(index, r, alpha.times(area * depth * mobilised), size, depth, mobilised);
+    const V pushes = area * depth;
+    sum.add(index, r, alpha.times(pushes * mobilised), alpha.times(pushes), size, depth);
   }
-  return sum.total(tick.yield_way);
+  return sum.total(tick.motion.yield_way);
 }
 
 VolumeBelow VolumeBelowPlane(const ToolElements& e, double height, const Eigen::Vector2d& slope) {

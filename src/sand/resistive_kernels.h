@@ -7,15 +7,13 @@ namespace sandstroke {
 /// The input of one tick of resistive force theory. Vector code (Highway), the same bits for every
 /// instruction set.
 struct ResistiveTick {
-  const ToolFootprint& footprint;
   const ToolElements& elements;
-  double* ways;  ///< x, y, z of each element's displacement, in yield ways; updated
-  Eigen::Vector3d tip;
-  SandPlane plane;
-  Eigen::Vector3d motion;  ///< of the tip, in yield ways
-  Eigen::Matrix3d spin;  ///< 1/m; times an element's position: its motion relative to the tip, in yield ways
-  double resistance;     ///< N/m^3, xi
-  double tool_friction, yield_way;
+  const SandBefore& before;
+  double* ways;       ///< x, y, z of each element's displacement, in yield ways; updated
+  double tip_height;  ///< m
+  SandBefore::Motion motion;
+  double resistance;  ///< N/m^3, xi
+  double tool_friction;
 };
 Wrench resistive_wrench(const ResistiveTick& tick);
 

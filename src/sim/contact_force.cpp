@@ -5,75 +5,140 @@
 #include <numbers>
 #include <optional>
 
+#include "rules/force.h"
+#include "sand/sand_plane.h"
+#include "sim/elastic_wrench.h"
 #include "tool/tool_surface.h"
 
 namespace sandstroke {
 namespace {
 
-/// A force that goes by the plane of the sand around the tool.
-class PlaneForce : public ToolForce {
+/// How far a surface's points lie from its tip [m], at most.
+double farthest_from_tip(const TriangleMesh& surface) {
+  double most = 0.0;
+  for (const Eigen::Vector3d& vertex : surface.vertices) most = std::max(most, length_of(vertex));
+  return most;
+}
+
+/// The force that a law asks for, as the tool feels it: by way of an ElasticWrench. The scene's device gives
+/// what another one makes of the limited wrench.
+class ElasticForce : public ToolForce {
  public:
-  explicit PlaneForce(const Scene& scene) {
-    if (scene.tool.shape == ToolShape::sphere) sphere_radius_ = scene.tool.radius;
+  explicit ElasticForce(const Scene& scene)
+      : arm_(farthest_from_tip(tool_surface(scene.tool))),
+        device_limit_(scene.device.max_force),
+        turns_(scene.tool.shape != ToolShape::sphere) {}
+
+  void lift() override {
+    on_tool_.lift();
+    on_device_.lift();
+    felt_rotation_ = rotation_;
+  }
+  void turn(const Eigen::Matrix3d& rotation) final {
+    if (!turns_) return;
+    rotation_ = rotation;
+    turn_surface(rotation);
   }
 
   Wrench feel(const ToolInSand& touch) override {
-    const SandPlane plane =
-        fit_sand_plane(touch.bed, touch.tip.x(), touch.tip.y(), sphere_radius_.value_or(touch.tool.reach()));
-    if (std::isnan(plane.height)) {
-      lift();
-      return {};
-    }
-    return feel_from(plane, touch);
+    const Wrench asked = law(touch);
+    if (asked.stiffness > 0.0) return elastic(asked, touch.motion);
+    ElasticForce::lift();  // nothing leads; the law knows itself whether the tool touches sand
+    return {};
   }
 
  protected:
-  virtual Wrench feel_from(const SandPlane& plane, const ToolInSand& touch) = 0;
-
-  std::optional<double> sphere_radius_;  // m
-};
-
-class RftForce : public PlaneForce {
- public:
-  RftForce(const Scene& scene, double cell_size)
-      : PlaneForce(scene), sand_(scene.strength), resistive_(tool_surface(scene.tool), cell_size) {
-    resistive_.turn(own_rotation(scene.tool));
-  }
-
-  void lift() override { resistive_.lift(); }
-  void turn(const Eigen::Matrix3d& rotation) override { resistive_.turn(rotation); }
+  /// Not called for a sphere: its tip stays its lowest point, however the hand turns it.
+  virtual void turn_surface(const Eigen::Matrix3d& rotation) = 0;
+  /// As the law asks for it; without stiffness where no sand resists.
+  virtual Wrench law(const ToolInSand& touch) = 0;
 
  private:
-  Wrench feel_from(const SandPlane& plane, const ToolInSand& touch) override {
-    return resistive_.feel(touch.tool.footprint(), touch.tip, plane, touch.motion, sand_);
+  using Six = ElasticWrench::Six;
+
+  /// `wrench` as the law asks for it, and what the tool and the device feel of it after a motion.
+  Wrench elastic(Wrench wrench, const Eigen::Vector3d& motion) {
+    const Eigen::Matrix3d turn = rotation_ * felt_rotation_.transpose();
+    felt_rotation_ = rotation_;
+    const Eigen::Vector3d spin(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1));
+    Six way, asked;
+    way << motion, 0.5 * arm_ * spin;
+    const Wrench limited = wrench.limited(device_limit_);
+    asked << wrench.force, wrench.torque / arm_;
+    const Six& felt = on_tool_.follow(asked, wrench.stiffness, way);
+    // A device gives no torque, so the hand's turns are free for it, and must give it nothing.
+    way.tail<3>().setZero();
+    asked << limited.force, Eigen::Vector3d::Zero();
+    wrench.given = on_device_.follow(asked, limited.stiffness, way, device_limit_).head<3>();
+    wrench.force = felt.head<3>();
+    wrench.torque = arm_ * felt.tail<3>();
+    wrench.stored = on_tool_.stored();
+    wrench.given_stored = on_device_.stored();
+    return wrench;
+  }
+
+  double arm_, device_limit_;  // m, N
+  bool turns_;
+  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity(), felt_rotation_ = rotation_;
+  ElasticWrench on_tool_, on_device_;
+};
+
+class RftForce : public ElasticForce {
+ public:
+  RftForce(const Scene& scene, double cell_size)
+      : ElasticForce(scene),
+        sand_(scene.strength),
+        resistive_(tool_surface(scene.tool), cell_size, scene.relaxation.talus_angle) {
+    ElasticForce::turn(own_rotation(scene.tool));
+  }
+
+  void lift() override {
+    ElasticForce::lift();
+    resistive_.lift();
+  }
+
+ private:
+  void turn_surface(const Eigen::Matrix3d& rotation) override { resistive_.turn(rotation); }
+  Wrench law(const ToolInSand& touch) override {
+    return resistive_.feel(touch.bed, touch.tool.footprint(), touch.tip, touch.motion, sand_);
   }
 
   SandStrength sand_;
   ResistiveForce resistive_;
 };
 
-class ArchimedesForce : public PlaneForce {
+/// It goes by the plane of the sand around the tool.
+class ArchimedesForce : public ElasticForce {
  public:
   ArchimedesForce(const Scene& scene, double cell_size)
-      : PlaneForce(scene), sand_(scene.strength), elements_(tool_surface(scene.tool), cell_size) {
-    elements_.turn(own_rotation(scene.tool));
+      : ElasticForce(scene), sand_(scene.strength), elements_(tool_surface(scene.tool), cell_size) {
+    if (scene.tool.shape == ToolShape::sphere) sphere_radius_ = scene.tool.radius;
+    ElasticForce::turn(own_rotation(scene.tool));
   }
 
-  void lift() override { sunk_ = 0.0; }
-  void turn(const Eigen::Matrix3d& rotation) override { elements_.turn(rotation); }
+  void lift() override {
+    ElasticForce::lift();
+    sunk_ = 0.0;
+  }
 
  private:
-  Wrench feel_from(const SandPlane& plane, const ToolInSand& touch) override {
+  void turn_surface(const Eigen::Matrix3d& rotation) override { elements_.turn(rotation); }
+  Wrench law(const ToolInSand& touch) override {
+    const SandPlane plane =
+        fit_sand_plane(touch.bed, touch.tip.x(), touch.tip.y(), sphere_radius_.value_or(touch.tool.reach()));
+    if (std::isnan(plane.height)) {
+      sunk_ = 0.0;
+      return {};
+    }
     constexpr double plate = 0.87574;
     const double yield = sand_.yield_way, per_volume = plate * resistance(sand_);
     sunk_ = std::clamp(sunk_ - touch.motion.z() / yield, 0.0, 1.0);
     const VolumeBelow below = volume_in_sand(touch.tip, plane);
     Wrench wrench;
-    wrench.strength = per_volume * below.volume;
+    wrench.strength = wrench.whole = per_volume * below.volume;
     wrench.force.z() = wrench.strength * sunk_;
     wrench.torque = per_volume * sunk_ * Eigen::Vector3d(below.moment.y(), -below.moment.x(), 0.0);
     wrench.stiffness = per_volume * (below.area + below.volume / yield);  // it grows with volume and way
-    wrench.stored = 0.5 * yield * wrench.force.z();
     return wrench;
   }
 
@@ -86,6 +151,7 @@ class ArchimedesForce : public PlaneForce {
   }
 
   SandStrength sand_;
+  std::optional<double> sphere_radius_;  // m
   ToolElements elements_;
   double sunk_ = 0.0;  // yield ways, 0 to 1
 };

@@ -61,8 +61,8 @@ class ContactWrench : public DeviceForce {
     const double most = device.settings().max_force;
     record.repulse_force = {0.0, 0.0, force.z()};
     record.drag_force = {force.x(), force.y(), 0.0};
-    record.saturated = most > 0.0 && record.wrench.strength > most;
-    return record.wrench.limited(most).force;
+    record.saturated = most > 0.0 && record.wrench.whole > most;
+    return given(record.wrench, most);
   }
 
   FeltSand felt_sand(const TickRecord& record, const DeviceSettings& device) const override {
@@ -70,10 +70,17 @@ class ContactWrench : public DeviceForce {
   }
 
   double stored(const TickRecord& record, const DeviceSettings& device) const override {
-    return record.wrench.limited(device.max_force).stored / device.scale;
+    return given_stored(record.wrench, device.max_force) / device.scale;
   }
 
   Remedy remedy(double /*max_drag_force*/) const override { return {{"force.density"}, "force.yield"}; }
+
+  /// N, what a device with this maximum gives.
+  virtual Eigen::Vector3d given(const Wrench& wrench, double /*max_force*/) const { return wrench.given; }
+  /// J, what the sand may give back of that, at most.
+  virtual double given_stored(const Wrench& wrench, double /*max_force*/) const {
+    return wrench.given_stored;
+  }
 
   /// The theory holds for tools up to 0.4 sqrt(g L) (Agarwal et al. 2023), L the tool's width, and for the
   /// sand that it was fitted for.
@@ -95,9 +102,16 @@ class ContactWrench : public DeviceForce {
   }
 };
 
-/// The wrench by a plugin law, whose keys and theory only the plugin knows.
+/// The wrench by a plugin law, whose keys, theory and energy only the plugin knows.
 class PluginWrench : public ContactWrench {
  public:
+  Eigen::Vector3d given(const Wrench& wrench, double max_force) const override {
+    return wrench.limited(max_force).force;
+  }
+  double given_stored(const Wrench& wrench, double max_force) const override {
+    return wrench.limited(max_force).stored;
+  }
+
   Remedy remedy(double /*max_drag_force*/) const override {
     return {{"the force that model.force gives"}, ""};
   }

@@ -106,6 +106,7 @@ class WatchedForce : public ToolForce {
                               "{:.4g} m; correct the law",
                               law_, touch.depth, touch.tip.x(), touch.tip.y()));
     wrench.strength = std::max(wrench.strength, wrench.force.norm());  // or a device's limit would not hold
+    wrench.whole = wrench.strength;
     return wrench;
   }
   void lift() override {

@@ -44,6 +44,12 @@ Interaction SandSide::look(const HeightField& bed, const Eigen::Vector3d& read_t
   return interaction;
 }
 
+Interaction SandSide::meet(const HeightField& bed, const Eigen::Vector3d& read_tip) {
+  const Interaction interaction = look(bed, read_tip);
+  tool_->meet(bed, read_tip.z());
+  return interaction;
+}
+
 double SandSide::displace_sand(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion) {
   if (!plugin_law_) return tool_->displace(bed, tip.z(), motion, displacement_);
   if (tool_->footprint().cells().empty()) return 0.0;

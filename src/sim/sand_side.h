@@ -40,6 +40,8 @@ class SandSide {
                    const std::function<void()>& relax, std::optional<double> highest = {});
   /// Places the tool there, without displacing anything.
   Interaction look(const HeightField& bed, const Eigen::Vector3d& read_tip);
+  /// The same, and finds the cells that the tool covers, as move() does: a law of force looks at them.
+  Interaction meet(const HeightField& bed, const Eigen::Vector3d& read_tip);
   /// Allocates all memory that a tool that does not turn needs on this bed, so that move() allocates none of
   /// its own.
   void take_memory(const HeightField& bed) {

@@ -83,7 +83,8 @@ void describe_tool(KeyVisitor& v, ToolSettings& tool) {
     v.number("thickness", tool.thickness, positive, "m", "extent along x");
   }
   if (is(rake)) {
-    v.integers("teeth", &tool.teeth, 1, 1, 200, "teeth in a row along y, round at their ends");
+    v.integers("teeth", &tool.teeth, 1, 1, 200,
+               "teeth in a row along y, round at their ends, under a beam that is two radii wide and high");
     v.number("spacing", tool.spacing, positive, "m", "distance between the axes of teeth");
   }
   if (is(mesh)) {

@@ -116,7 +116,8 @@ RelaxationOutcome Simulation::relax(double time) {
 }
 
 void Simulation::keep_frame(double time) {
-  tell([&](auto& observer) { observer.on_frame(time, bed()); });
+  const HeightField& surface = shown_bed();
+  tell([&](auto& observer) { observer.on_frame(time, surface); });
 }
 
 void Simulation::run_stroke() {
@@ -132,7 +133,7 @@ void Simulation::run_stroke() {
   double time = 0.0;
   const std::function<void()> relax_now = [&] { relax(time); };
   auto idle_next = idle_.begin();
-  if (scene().output.frames > 0.0) keep_frame(0.0);
+  if (scene().output.frames > 0.0) tell([&](auto& observer) { observer.on_frame(0.0, bed()); });
   for (std::int64_t k = 0; k < ticks_ && !interrupted(); ++k) {
     if (idle_next != idle_.end() && k == idle_next->begin) {
       k = idle(*idle_next++);

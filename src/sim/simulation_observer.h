@@ -14,7 +14,8 @@ class SimulationObserver {
   virtual ~SimulationObserver() = default;
   virtual void on_tick(const TickRecord&) {}  ///< every tick but idle ones
   virtual void on_relaxation(const RelaxationRecord&) {}
-  /// Called output.frames times a second, first at time 0.
+  /// Called output.frames times a second, first at time 0; then with the bed at rest
+  /// (Simulation::shown_bed).
   virtual void on_frame(double /*time*/, const HeightField&) {}
   /// fraction: the part of the stroke that is done, 0 to 1.
   virtual void on_progress(double /*fraction*/) {}

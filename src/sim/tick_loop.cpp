@@ -81,6 +81,15 @@ RelaxationOutcome TickLoop::relax(const PassWatcher& watcher) {
   return outcome;
 }
 
+const HeightField& TickLoop::bed_at_rest() {
+  const RelaxationSettings& settings = scene_.relaxation;
+  if (!scene_.plugin_laws.relaxation.empty() || (settings.rate == 0.0 && settings.way == 0.0)) return bed_;
+  if (!at_rest_) at_rest_.emplace(bed_, make_relaxer(settings, bed_.cell_size()));
+  sand_.make_walls(at_rest_->follow(bed_));
+  at_rest_->relax();
+  return at_rest_->copy();
+}
+
 void TickLoop::check_near(const TickRecord& record) const {
   const double hand = std::max(tip_of(scene_.device, record.hand.position).norm(),
                                tip_of(scene_.device, record.next.position).norm());

@@ -6,6 +6,7 @@
 
 #include "haptics/stroke_sampler.h"
 #include "sim/device_side.h"
+#include "sim/sand_at_rest.h"
 #include "sim/sand_side.h"
 #include "sim/sand_watch.h"
 #include "sim/tool_force.h"
@@ -49,6 +50,10 @@ class TickLoop {
   /// Relaxes the sand to rest, around a solid tool or into the hollow that it has left. Error: unstable,
   /// where a plugin law makes or loses sand.
   RelaxationOutcome relax(const PassWatcher& watcher);
+  /// bed() as it would lie if it came to rest now, which it need not until the next relaxation (SandAtRest).
+  /// bed() itself where a scene does not relax as its stroke goes on, or by a law of one's own. Always the
+  /// same object, from the first call on.
+  const HeightField& bed_at_rest();
 
  private:
   TickRecord read_device(const TickInput& tick) const;
@@ -64,6 +69,7 @@ class TickLoop {
   std::unique_ptr<ToolForce> tool_force_;
   DeviceSide device_;
   std::unique_ptr<Relaxer> relaxer_;
+  std::optional<SandAtRest> at_rest_;
   std::optional<SandWatch> watch_;  // where a law that is not this library's moves sand
 };
 

@@ -10,7 +10,7 @@ namespace sandstroke {
 /// A tick in which the tool touches the sand, as a law of force is told of it.
 struct ToolInSand {
   const HeightField& bed;
-  const Tool& tool;        ///< where it displaced last; its footprint's heights() are the bed's
+  const Tool& tool;        ///< where it displaced, or met sand, last; its footprint's heights() are the bed's
   Eigen::Vector3d tip;     ///< m
   Eigen::Vector3d motion;  ///< m, by which the tool went there in this tick
   double depth;            ///< m, of its lowest point below the level around it
@@ -20,7 +20,7 @@ struct ToolInSand {
 class ToolForce {
  public:
   virtual ~ToolForce() = default;
-  /// Feels in a tick in contact. A device of limited force gets Wrench::limited(), so `strength` counts.
+  /// Feels in a tick in contact.
   virtual Wrench feel(const ToolInSand& touch) = 0;
   /// The tool touches no sand: what was known of its way is gone.
   virtual void lift() {}

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -106,8 +107,10 @@ ToolElements::ToolElements(const TriangleMesh& surface, double size) {
 void ToolElements::turn(const Eigen::Matrix3d& rotation) {
   if (rotation == rotation_) return;
   rotation_ = rotation;
+  lowest_ = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < centres_.size(); ++i) {
     const Vector3d centre = rotation * centres_[i], normal = rotation * normals_[i];
+    lowest_ = std::min(lowest_, centre.z());
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       columns_[static_cast<std::size_t>(axis) * size_ + i] = centre[axis];
       columns_[static_cast<std::size_t>(axis + 3) * size_ + i] = normal[axis];

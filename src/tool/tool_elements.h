@@ -31,12 +31,14 @@ class ToolElements {
   const double* normal_y() const { return column(4); }
   const double* normal_z() const { return column(5); }
   const double* area() const { return column(6); }  ///< m^2
+  double lowest() const { return lowest_; }         ///< m above the tip, of the centres
 
  private:
   const double* column(std::size_t i) const { return columns_.get() + i * size_; }
 
   std::size_t size_ = 0;
   int count_ = 0;
+  double lowest_ = 0.0;
   Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Zero();  // none yet
   std::vector<Eigen::Vector3d> centres_, normals_;      // in its own frame
   hwy::AlignedFreeUniquePtr<double[]> columns_;

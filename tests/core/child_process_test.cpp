@@ -105,5 +105,10 @@ TEST(ChildProcess, NobodyWaitsForItItIsKilled) {
   EXPECT_EQ(kill(process, 0), -1);
 }
 
+TEST(IsInstalled, LooksAlongPath) {
+  EXPECT_TRUE(is_installed("sh"));
+  EXPECT_FALSE(is_installed("no-such-program-anywhere"));
+}
+
 }  // namespace
 }  // namespace sandstroke

@@ -123,8 +123,7 @@ std::vector<Covered> covered(const FeltLaw& law, const std::vector<bool>& free, 
 
 /// With 100 repetitions the share of one constant strays by 5 and 2 % (standard deviation), so the constants
 /// are counted together.
-void expect_covered(const FeltLaw& law, const std::vector<bool>& free) {
-  constexpr int repetitions = 100;
+void expect_covered(const FeltLaw& law, const std::vector<bool>& free, int repetitions = 100) {
   for (const double correlated : {0.0, 0.1})
     for (const double rms : {0.01, 0.2}) {
       double of_68 = 0.0, of_95 = 0.0;
@@ -151,7 +150,9 @@ TEST(Confidence, CoversWhereTheForceBends) {
   expect_covered(paper_law({.k_s = 1.0, .k_c = 200.0, .k_f = 8.0}), {true, true, true});
 }
 
-TEST(Confidence, CoversTheSandOfRft) { expect_covered(rft_law(), {true, true, false}); }
+TEST(Confidence, CoversTheSandOfRft) {
+  expect_covered(rft_law(), {true, true, false}, 400);  // its constants stray together
+}
 
 /// The ends of an interval are where the distance is.
 TEST(Confidence, EndsWhereTheDistanceIs) {

@@ -105,19 +105,25 @@ TEST(ContactFit, FindsTheSandThatMadeTheForce) {
     ToolShape shape;
     SandStrength sand;
     double max_force;
+    double angle_error;  // deg
   };
-  for (const Case& one :
-       {Case{ToolShape::sphere, {38.0, 1700.0, 0.25}, 0.0}, Case{ToolShape::box, {22.0, 1560.0, 0.6}, 0.0},
-        Case{ToolShape::plate, {34.0, 1400.0, 0.1}, 0.0}, Case{ToolShape::box, {34.0, 1560.0, 0.3}, 1.0}}) {
+  for (const Case& one : {Case{ToolShape::sphere, {38.0, 1700.0, 0.25}, 0.0, 1e-3},
+                          Case{ToolShape::box, {22.0, 1560.0, 0.6}, 0.0, 1e-3},
+                          Case{ToolShape::plate, {34.0, 1400.0, 0.1}, 0.0, 1e-3},
+                          // A limited device lags behind the sand's force by an elastic way of its own, which
+                          // the fit leaves out.
+                          Case{ToolShape::box, {34.0, 1560.0, 0.3}, 1.0, 0.02}}) {
     Scene scene = scene_with(ForceLaw::rft, one.shape);
     scene.device.max_force = one.max_force;
     scene.strength.density = one.sand.density;
     const Stroke felt = recorded_in(with(scene, one.sand), way_of(Way::draws));
     const ForceFit fit = fitted(scene, felt);
     ASSERT_EQ(fit.constants.size(), 2u);
-    EXPECT_NEAR(fit.values[0], one.sand.friction_angle, 1e-3) << one.sand.friction_angle;
+    EXPECT_NEAR(fit.values[0], one.sand.friction_angle, one.angle_error) << one.sand.friction_angle;
     EXPECT_NEAR(fit.values[1], one.sand.tool_friction, 2e-3) << one.sand.friction_angle;
-    EXPECT_NEAR(fit.scale.value, resistance(one.sand), 1e-3 * resistance(one.sand));
+    SandStrength other = one.sand;
+    other.friction_angle += one.angle_error;
+    EXPECT_NEAR(fit.scale.value, resistance(one.sand), 1.01 * (resistance(other) - resistance(one.sand)));
     EXPECT_EQ(fit.values[2], scene.strength.yield_way);
     EXPECT_TRUE(fit.constants[0].determined());
     EXPECT_TRUE(fit.constants[1].determined());
@@ -235,7 +241,7 @@ TEST(ContactLaw, KeepsAnEvenPartOfVeryManyTicks) {
   const int ticks = 230'000;
   for (int i = 0; i < ticks; ++i) {
     const std::vector<Wrench> felt(law.grid().sands().size(),
-                                   {.force = {0.0, 0.0, 1.0 * i}, .strength = 1.0 * i});
+                                   {.strength = 1.0 * i, .given = {0.0, 0.0, 1.0 * i}});
     law.add(felt, {0.0, 0.0, 1.0 * i});
   }
   EXPECT_EQ(law.ticks(), ticks);

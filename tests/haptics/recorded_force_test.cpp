@@ -69,7 +69,8 @@ TEST(RecordedForce, OnlyFlagsThatSayTheForceWasAlteredLeaveASampleOut) {
                                     {rate_limited_force, false},
                                     {refused_force, false},
                                     {deferred_sand, false},
-                                    {interlocked_force, false}}) {
+                                    {interlocked_force, false},
+                                    {unfelt_force, false}}) {
     Stroke stroke = rising();
     stroke.flags = {0, flag, 0, 0};
     RecordedForce recorded(stroke);

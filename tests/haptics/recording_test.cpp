@@ -37,7 +37,7 @@ TEST(TickCounts, EachFlagCountsItsOwn) {
 
 TEST(StopReason, HasATextOfItsOwnAndIsFoundByIt) {
   std::set<std::string> texts;
-  for (int i = 0; i <= static_cast<int>(StopReason::cut_off); ++i) {
+  for (int i = 0; i <= static_cast<int>(StopReason::finish); ++i) {
     const auto reason = static_cast<StopReason>(i);
     EXPECT_TRUE(texts.insert(stop_reason_text(reason)).second);
     EXPECT_EQ(stop_reason_of(stop_reason_text(reason)), reason);
@@ -48,7 +48,8 @@ TEST(StopReason, HasATextOfItsOwnAndIsFoundByIt) {
 
 TEST(StopReason, LeavesACompleteRecordingIfSomebodyAskedForIt) {
   using enum StopReason;
-  for (const StopReason asked : {duration, stroke_end, stop_switch, key}) EXPECT_TRUE(is_complete(asked));
+  for (const StopReason asked : {duration, stroke_end, stop_switch, key, finish})
+    EXPECT_TRUE(is_complete(asked));
   for (const StopReason other : {signal, device_lost, stall, disk, no_number, error, cut_off})
     EXPECT_FALSE(is_complete(other));
 }

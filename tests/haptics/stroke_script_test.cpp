@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "sanitized.h"
 
@@ -265,6 +266,28 @@ TEST(StrokeScript, TheLetterIIsOneVerticalPenStroke) {
   EXPECT_NEAR(high, 0.27, 1e-4);
   EXPECT_NEAR(left, right, 1e-14);
   EXPECT_GE(left, 0.1);
+}
+
+/// The sharpest turn [deg] of the pen while it draws a letter 0.4 m high, sampled every millimetre.
+double sharpest_turn(const char* letter) {
+  const Stroke stroke =
+      trace_script(script_of({{ScriptText{letter, "futural", {0, 0}, 0.4}, depth({0.01}), 1.0}}), {});
+  double sharpest = 0.0;
+  for (std::size_t i = 2; i < stroke.size(); ++i) {
+    const Vector3d before = stroke.position[i - 1] - stroke.position[i - 2],
+                   after = stroke.position[i] - stroke.position[i - 1];
+    const bool draws = stroke.position[i].z() == -0.01 && stroke.position[i - 2].z() == -0.01;
+    if (draws && before.norm() > 0.0 && after.norm() > 0.0)
+      sharpest = std::max(
+          sharpest, to_degrees(std::acos(std::min(1.0, before.dot(after) / before.norm() / after.norm()))));
+  }
+  return sharpest;
+}
+
+// The font stores an S as 19 lines, which turn by up to 37 degrees.
+TEST(StrokeScript, LettersHaveRoundCurvesAndSharpCorners) {
+  for (const char* round : {"S", "C", "O", "a"}) EXPECT_LT(sharpest_turn(round), 8.0) << round;
+  for (const char* angular : {"e"}) EXPECT_GT(sharpest_turn(angular), 60.0) << angular;
 }
 
 TEST(StrokeScript, TextTurnsAndSpacesItsLetters) {

@@ -96,7 +96,7 @@ Wrench pushed_in(const ToolSettings& settings, double depth, const SandStrength&
     tool.place(bed, to.x() + off * cell, to.y() + 0.7 * off * cell);
     tool.displace(bed, to.z(), motion, {Deposit::outward});
     tool.read_heights(bed);
-    felt = force.feel(tool.footprint(), to, {0.0}, motion, sand);
+    felt = force.feel(bed, tool.footprint(), to, motion, sand);
   };
   constexpr double step = 2.5e-4;
   const int steps = static_cast<int>(std::lround(depth / step));
@@ -143,11 +143,11 @@ TEST(ResistiveForce, IsThatOfTheTableOnASphere) {
       const double plunged = theory_of_sphere(0.01, depths[i], falling, sand).z();
       EXPECT_NEAR(felt.z(), plunged, (i == 0 ? 13.0 : 10.0) * cell * plunged) << depths[i];
       EXPECT_LT(felt.head<2>().norm(), 1e-3 * felt.z());
-      if (i == 4) continue;  // a sphere that is buried shuts the sand off above it
+      if (i == 0) continue;  // its wedge comes out in what it has just put down
       const double dragged = theory_of_sphere(0.01, depths[i], Vector3d::UnitX(), sand).x();
-      // Elements that trail by less than 3 degrees count a little: 1.7 % at 2 mm.
+      // Its underside feels a little of the furrow behind it.
       EXPECT_NEAR(pushed_in(sphere, depths[i], sand, cell, cell, {0.006, 0.0, 0.0}).force.x(), dragged,
-                  0.02 * std::abs(dragged));
+                  0.03 * std::abs(dragged));
     }
 }
 
@@ -180,15 +180,15 @@ TEST(ResistiveForce, DependsOnTheWayAndNotOnTheTimeItTakes) {
   tool.displace(bed, -0.005, falling, {Deposit::outward});
   tool.read_heights(bed);
   const Vector3d tip(0.0, 0.0, -0.005), way(3e-4, -1e-4, -4e-4);
-  const Vector3d once = coarse.feel(tool.footprint(), tip, {0.0}, way, sand).force;
-  fine.feel(tool.footprint(), tip, {0.0}, 0.5 * way, sand);
-  const Vector3d twice = fine.feel(tool.footprint(), tip, {0.0}, 0.5 * way, sand).force;
+  const Vector3d once = coarse.feel(bed, tool.footprint(), tip, way, sand).force;
+  fine.feel(bed, tool.footprint(), tip, 0.5 * way, sand);
+  const Vector3d twice = fine.feel(bed, tool.footprint(), tip, 0.5 * way, sand).force;
   EXPECT_LT((once - twice).norm(), 1e-12 * once.norm());
   // It holds where the tool rests, and is soon gone where it rises.
-  EXPECT_LT((fine.feel(tool.footprint(), tip, {0.0}, Vector3d::Zero(), sand).force - twice).norm(),
+  EXPECT_LT((fine.feel(bed, tool.footprint(), tip, Vector3d::Zero(), sand).force - twice).norm(),
             1e-12 * twice.norm());
-  fine.feel(tool.footprint(), tip, {0.0}, {0.0, 0.0, 2.0 * sand.yield_way}, sand);
-  EXPECT_LT(fine.feel(tool.footprint(), tip, {0.0}, {0.0, 0.0, 2.0 * sand.yield_way}, sand).force.z(),
+  fine.feel(bed, tool.footprint(), tip, {0.0, 0.0, 2.0 * sand.yield_way}, sand);
+  EXPECT_LT(fine.feel(bed, tool.footprint(), tip, {0.0, 0.0, 2.0 * sand.yield_way}, sand).force.z(),
             0.05 * twice.z());
 }
 
@@ -199,7 +199,7 @@ TEST(ResistiveForce, IsANumberForAWayWhoseSquareIsNone) {
   tool.place(bed, 0.0, 0.0);
   for (const double way : {0.0, 1e-158, 1e-165, 1e-200, 1e-320}) {
     ResistiveForce force(tool_surface(sphere), 0.001);
-    const Wrench felt = force.feel(tool.footprint(), {0.0, 0.0, -0.005}, {0.0}, {way, 0.0, -way}, {});
+    const Wrench felt = force.feel(bed, tool.footprint(), {0.0, 0.0, -0.005}, {way, 0.0, -way}, {});
     EXPECT_LT(felt.force.norm(), 1e-100) << way;
     EXPECT_TRUE(std::isfinite(felt.strength)) << way;
   }
@@ -232,13 +232,13 @@ TEST(ResistiveForce, IsATorqueOnABladeThatTurnsWhereItStands) {
   ResistiveForce force(tool_surface(blade), 0.001);
   const SandStrength sand{30.0, 1560.0, 0.0, 1e-6};
   tool.place(bed, 0.0, 0.0);
-  tool.displace(bed, -depth, falling, {Deposit::outward});
+  tool.meet(bed, -depth);
   tool.read_heights(bed);
   const Vector3d tip(0.0, 0.0, -depth);
-  EXPECT_EQ(force.feel(tool.footprint(), tip, {0.0}, Vector3d::Zero(), sand).torque, Vector3d::Zero());
+  EXPECT_EQ(force.feel(bed, tool.footprint(), tip, Vector3d::Zero(), sand).torque, Vector3d::Zero());
   const auto turn = [&](double by) {
     force.turn(Eigen::AngleAxisd(by, Vector3d::UnitZ()).toRotationMatrix());
-    return force.feel(tool.footprint(), tip, {0.0}, Vector3d::Zero(), sand);
+    return force.feel(bed, tool.footprint(), tip, Vector3d::Zero(), sand);
   };
   const Wrench left = turn(angle);
   const double expected = 0.192 * resistance(sand) * depth * depth * 0.04 * 0.04 / 8.0;
