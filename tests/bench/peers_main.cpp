@@ -5,7 +5,7 @@
 
 #include "bench/peers.h"
 #include "validation/study/study_files.h"
-#include "validation/study/study_table.h"
+#include "validation/study/study_summary.h"
 
 int main(int argc, char** argv) {
   using namespace sandstroke;

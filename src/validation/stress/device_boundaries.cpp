@@ -1,33 +1,13 @@
 #include "validation/stress/device_parts.h"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <cmath>
 #include <random>
 
 #include "core/bisection.h"
+#include "validation/stress/loop_margins.h"
 #include "validation/stress/loop_theory.h"
 
 namespace sandstroke {
-namespace {
-
-std::string in_words(const LoopSettings& settings) {
-  const DeviceSettings& d = settings.device;
-  std::string words =
-      fmt::format("{:.0f} Hz, {:.3g} kg, b {:.3g} N s/m, hand {:.3g} N/m and {:.3g} N s/m, delay {}",
-                  d.servo_rate, d.mass, d.damping, d.hand_stiffness, d.hand_damping, d.delay);
-  const FeltAlong felt = felt_about_rest(settings);
-  if (const auto* sand = std::get_if<PressedSand>(&settings.against))
-    words += fmt::format(", sand: scale {:.3g}, k_c {:.3g} 1/m, {:.3g} mm deep", d.scale, sand->force.k_c,
-                         1e3 * sand->depth);
-  else
-    words += std::holds_alternative<Wall>(settings.against) ? ", wall" : ", yielding sand";
-  if (felt.z.damping > 0.0) words += fmt::format(", drag {:.3g} s of K", felt.z.damping / felt.z.stiffness);
-  return words;
-}
-
-}  // namespace
-
 std::vector<LoopSettings> varied_loops(int count) {
   std::mt19937 random(2006);
   const auto between = [&random](double low, double high) {  // equally many in every decade

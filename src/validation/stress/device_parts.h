@@ -15,11 +15,24 @@ namespace sandstroke {
 /// exact encoders and no dropped ticks. The caller chooses the gain. Every run gives the same loops.
 std::vector<LoopSettings> varied_loops(int count);
 
+inline constexpr double pressing_force = 3.0;  ///< N, the largest force in the paper
+
+/// The loop pressed to a depth [m], disturbed so little that the law is linear there.
+LoopSettings pressed_to(double depth, const DeviceSettings& device, const ForceSettings& force);
+/// The same, pressed with a force [N].
+LoopSettings pressed_with(double newton, const DeviceSettings& device, const ForceSettings& force);
+/// The same, in sand that the device then feels as stiff as K [N/m]: by force.k_s.
+LoopSettings pressed_into(double K, double newton, const DeviceSettings& device, ForceSettings force);
+
 /// The gain up to which Colgate & Schenkel's condition holds (passivity_margin).
 double passive_gain(const LoopSettings& settings);
 
 /// Computes the stiffness felt at the measured, the exact and the passive gain.
 Boundary boundary_of(const LoopSettings& settings);
+
+/// Plans a map of loops that the eigenvalue foretells, with its boundary and that of passivity.
+LoopMapPlan map_by_eigenvalue(std::string name, std::string title, std::string text, MapAxis x, MapAxis y,
+                              std::function<LoopSettings(double, double)> loop);
 
 /// Plans maps that show, over pairs of settings, where the device loop is stable, swings or diverges.
 std::vector<LoopMapPlan> device_map_plans(bool quick);

@@ -7,6 +7,7 @@
 #include "core/interrupt.h"
 #include "core/parallel.h"
 #include "validation/stress/device_parts.h"
+#include "validation/stress/loop_margins.h"
 #include "validation/stress/loop_theory.h"
 #include "validation/stress/stress.h"
 
@@ -83,6 +84,7 @@ void stress_device_loop(StressReport& report, const StressOptions& options) {
   const double parts = static_cast<double>(plans.size()) + 2.0;
   double done = 0.0;
   const auto step = [&] { options.progress(++done / parts); };
+  for (const MarkedLoop& known : known_loops()) report.margins.push_back(margins_of(known.name, known.loop));
   add_boundaries(report);
   add_drag_gain(report);
   step();

@@ -40,11 +40,12 @@ std::string fault_of(const HeightGrid& start, const HeightGrid& end, double cell
 
 }  // namespace
 
-JudgedRun judged_run(const Scene& scene, const HeightField& bed, const std::optional<Stroke>& stroke) {
+JudgedRun judged_run(const Scene& scene, const HeightField& bed, const std::optional<Stroke>& stroke,
+                     Observers observers) {
   JudgedRun run;
   try {
     check_scene(scene, "scene");
-    const Solution end = solve(scene, bed, stroke);
+    const Solution end = solve(scene, bed, stroke, std::move(observers));
     run.result = end.result;
     run.reason =
         fault_of(bed.grid(), end.surface.grid(), bed.cell_area(), !stroke && monotone(scene.relaxation), run);

@@ -26,7 +26,8 @@ struct JudgedRun {
 ///   steps that are not).
 /// - not_converged: the sand is not at rest in the end.
 /// - stable: none of these.
-JudgedRun judged_run(const Scene& scene, const HeightField& bed, const std::optional<Stroke>& stroke = {});
+JudgedRun judged_run(const Scene& scene, const HeightField& bed, const std::optional<Stroke>& stroke = {},
+                     Observers observers = {});
 
 /// Reports many variations of one idea as one case. The case is a surprise if any variation is one.
 class Variations {

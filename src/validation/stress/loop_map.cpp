@@ -5,6 +5,7 @@
 
 #include "core/bisection.h"
 #include "core/parallel.h"
+#include "validation/stress/loop_margins.h"
 
 namespace sandstroke {
 namespace {
@@ -36,7 +37,7 @@ MapAxis map_axis(std::string name, std::string unit, AxisScale scale, double low
 
 StabilityMap draw_map(const LoopMapPlan& plan) {
   const std::size_t rows = plan.y.values.size(), cols = plan.x.values.size();
-  StabilityMap map{plan.name, plan.title, plan.text, plan.x, plan.y, {}, {}, {}};
+  StabilityMap map{plan.name, plan.title, plan.text, plan.x, plan.y, {}, {}, {}, {}};
   map.verdict.assign(rows, std::vector<Verdict>(cols));
   map.surprise.assign(rows, std::vector<bool>(cols));
   parallel_for(rows, [&](std::size_t row) {
@@ -60,6 +61,7 @@ StabilityMap draw_map(const LoopMapPlan& plan) {
     for (std::size_t col = 0; col < cols; ++col)
       if (crossing[curve][col]) drawn.points.emplace_back(plan.x.values[col], *crossing[curve][col]);
   }
+  map.marks = marks_in(plan.x, plan.y, plan.loop, plan.marked);
   return map;
 }
 

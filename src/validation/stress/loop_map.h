@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "validation/stress/device_loop.h"
+#include "validation/stress/loop_margins.h"
 
 namespace sandstroke {
 
@@ -17,6 +18,7 @@ struct LoopMapPlan {
   std::function<bool(const LoopSettings&, const LoopRun&, std::int64_t ticks)> surprising;
   /// Curves. Each runs where its function of the loop changes its sign along y.
   std::vector<std::pair<std::string, std::function<double(const LoopSettings&)>>> curves;
+  std::vector<MarkedLoop> marked = known_loops();
 };
 
 /// How the values of an axis are spread. linear: at even distances. logarithmic: at even ratios.

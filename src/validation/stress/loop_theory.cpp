@@ -28,6 +28,10 @@ Eigen::RowVector2d feedback(const DeviceSettings& device, const Eigen::Matrix<do
 /// The loop's one-tick map along an axis (haptics/loop_stability.h).
 Eigen::MatrixXd loop_map(const LoopSettings& settings, const Wall& felt) {
   const DeviceSettings& device = settings.device;
+  const bool by_encoders = device.velocity == ReadVelocity::encoders;
+  if (by_encoders && std::holds_alternative<PressedSand>(settings.against))
+    return loop_map(
+        device, windowed_feedback({felt.stiffness, felt.damping}, device.velocity_window, device.servo_rate));
   const bool implicit =
       device.drag == DragVelocity::implicit && std::holds_alternative<PressedSand>(settings.against);
   return loop_map(device, feedback(device, device_tick_map(device), felt, implicit));

@@ -6,6 +6,7 @@
 #include "report/page.h"
 
 SANDSTROKE_DECLARE_ASSET(stress);
+SANDSTROKE_DECLARE_ASSET(stress_margins);
 
 namespace sandstroke {
 
@@ -46,11 +47,21 @@ nlohmann::ordered_json as_json(const StressReport& report) {
   const auto axis = [](const MapAxis& a) {
     return Json{{"name", a.name}, {"unit", a.unit}, {"logarithmic", a.logarithmic}, {"values", a.values}};
   };
-  Json json{{"surprises", report.surprises()},
-            {"cases", Json::array()},
-            {"maps", Json::array()},
-            {"boundaries", Json::array()},
-            {"traces", Json::array()}};
+  Json json{{"surprises", report.surprises()}, {"margins", Json::array()},    {"cases", Json::array()},
+            {"maps", Json::array()},           {"boundaries", Json::array()}, {"traces", Json::array()}};
+  for (const LoopMargins& loop : report.margins) {
+    Json margins = Json::array();
+    for (const Margin& one : loop.margins)
+      margins.push_back({{"what", one.what},
+                         {"unit", one.unit},
+                         {"value", one.value},
+                         {"boundary", one.boundary},
+                         {"factor", one.factor}});
+    json["margins"].push_back({{"name", loop.name},
+                               {"settings", loop.settings},
+                               {"stable", loop.stable},
+                               {"margins", std::move(margins)}});
+  }
   for (const StressCase& one : report.cases) {
     Json expected = Json::array();
     for (const Verdict verdict : one.expected) expected.push_back(name_of(verdict));
@@ -63,7 +74,7 @@ nlohmann::ordered_json as_json(const StressReport& report) {
                              {"detail", one.detail}});
   }
   for (const StabilityMap& map : report.maps) {
-    Json verdicts = Json::array(), surprises = Json::array(), curves = Json::array();
+    Json verdicts = Json::array(), surprises = Json::array(), curves = Json::array(), marks = Json::array();
     for (const auto& row : map.verdict) {
       Json names = Json::array();
       for (const Verdict verdict : row) names.push_back(name_of(verdict));
@@ -75,6 +86,9 @@ nlohmann::ordered_json as_json(const StressReport& report) {
       for (const auto& [x, y] : curve.points) points.push_back({x, y});
       curves.push_back({{"name", curve.name}, {"points", points}});
     }
+    for (const MapMark& mark : map.marks)
+      marks.push_back(
+          {{"name", mark.name}, {"x", mark.x}, {"y", mark.y}, {"same", mark.same}, {"stable", mark.stable}});
     json["maps"].push_back({{"name", map.name},
                             {"title", map.title},
                             {"text", map.text},
@@ -82,7 +96,8 @@ nlohmann::ordered_json as_json(const StressReport& report) {
                             {"y", axis(map.y)},
                             {"verdict", verdicts},
                             {"surprise", surprises},
-                            {"curves", curves}});
+                            {"curves", curves},
+                            {"marks", marks}});
   }
   for (const Boundary& b : report.boundaries)
     json["boundaries"].push_back(
@@ -101,7 +116,8 @@ nlohmann::ordered_json as_json(const StressReport& report) {
 }
 
 std::string stress_page(const nlohmann::ordered_json& data) {
-  return html_page("sandstroke stress: numerical stability", {.scripts = {SANDSTROKE_ASSET(stress)}}, data);
+  return html_page("sandstroke stress: numerical stability",
+                   {.scripts = {SANDSTROKE_ASSET(stress_margins), SANDSTROKE_ASSET(stress)}}, data);
 }
 
 }  // namespace sandstroke

@@ -39,6 +39,14 @@ struct MapCurve {
   std::vector<std::pair<double, double>> points;  ///< x, y
 };
 
+/// A loop that people ask about, in a map: where its settings are on the axes.
+struct MapMark {
+  std::string name;
+  double x, y;
+  bool same;    ///< its other settings are the map's
+  bool stable;  ///< by its own eigenvalue
+};
+
 /// Verdicts over two settings: row = y index, col = x index. A cell may expect several verdicts.
 struct StabilityMap {
   std::string name, title, text;
@@ -46,6 +54,23 @@ struct StabilityMap {
   std::vector<std::vector<Verdict>> verdict;
   std::vector<std::vector<bool>> surprise;
   std::vector<MapCurve> curves;
+  std::vector<MapMark> marks = {};
+};
+
+/// How far a setting is from the boundary of stability, if only it changes. factor: by how much it may grow
+/// or shrink, whichever is worse; below 1 the loop is unstable. Infinite: no value makes the loop unstable.
+/// 0, and an infinite boundary: none makes it stable.
+struct Margin {
+  std::string what, unit;
+  double value, boundary, factor;
+};
+
+/// The margins of a loop.
+struct LoopMargins {
+  std::string name;
+  std::string settings;  ///< in words
+  bool stable;
+  std::vector<Margin> margins;
 };
 
 /// A stability boundary. measured: by bisection. exact: where an eigenvalue of the exact one-tick map leaves
@@ -64,6 +89,7 @@ struct StressTrace {
 };
 
 struct StressReport {
+  std::vector<LoopMargins> margins;
   std::vector<StressCase> cases;
   std::vector<StabilityMap> maps;
   std::vector<Boundary> boundaries;
@@ -79,7 +105,7 @@ struct StressOptions {
   std::function<void(double)> progress = [](double) {};  ///< gets the fraction of the test that is done
 };
 
-/// The data of the page, but for machine, options and time.
+/// The data of the page, but for machine, options and time. Infinity becomes null in its text.
 nlohmann::ordered_json as_json(const StressReport& report);
 
 /// The page that draws them (assets/stress.js), as HTML.

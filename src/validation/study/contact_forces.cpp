@@ -4,65 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "measure/solution.h"
-#include "sim/simulation.h"
-#include "tool/tool_surface.h"
-#include "validation/study/contact_scene.h"
+#include "validation/study/force_scene.h"
 #include "validation/study/measured_stress.h"
 
 namespace sandstroke {
 namespace {
-
-/// Keeps the force of the last tick.
-class LastWrench : public SimulationObserver {
- public:
-  void on_tick(const TickRecord& tick) override { force = tick.wrench.force; }
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< N
-};
-
-/// A scene whose sand yields at once (0.001 mm), so that force.yield adds no error to that of the cells.
-Scene force_scene(const ToolSettings& tool, double cell, double tool_friction) {
-  constexpr double width = 0.16;  // m
-  Scene scene = contact_scene(width, static_cast<int>(std::lround(width / cell)), 1000.0);
-  scene.preset = ModelPreset::accurate;
-  apply_model_preset(scene);
-  scene.relaxation.way = 0.0;
-  scene.relaxation.max_passes = 0;  // relaxation would not change the force
-  scene.tool = tool;
-  scene.tool.solid = true;
-  scene.tool.profile = ToolProfile::sphere;
-  scene.force.law = ForceLaw::rft;
-  scene.strength.tool_friction = tool_friction;
-  scene.strength.yield_way = 1e-6;
-  return scene;
-}
-
-/// The stroke goes straight down to `depth` [m] at 50 mm/s, and then `drag` [m] along x. With cells of `cell`
-/// [m] it lies off every grid line.
-Stroke push(double cell, double depth, double drag) {
-  constexpr double speed = 0.05, above = 0.001;  // m/s, m
-  const double x = 0.3 * cell, y = 0.17 * cell;
-  std::vector<Eigen::Vector3d> positions = {{x, y, above}, {x, y, -depth}};
-  std::vector<double> seconds = {(above + depth) / speed};
-  if (drag > 0.0) {
-    positions.emplace_back(x + drag, y, -depth);
-    seconds.push_back(drag / speed);
-  }
-  return straight(positions, seconds);
-}
-
-/// Compares the force along `axis` with `exact` [N].
-Contender force_contender(const std::string& series, const std::string& label, const Scene& scene,
-                          int threads, double step, const Stroke& stroke, int axis, double exact) {
-  return {series, label, settings_of(scene, threads), step, [=] {
-            LastWrench last;
-            const RunResult result = solve(scene, starting_bed(scene.bed), stroke, {&last}).result;
-            Trial trial{result.wall_seconds, score_of(result)};
-            trial.score.converged = true;  // no relaxation was asked for
-            trial.score.force_error = std::abs(last.force[axis] / exact - 1.0);
-            return trial;
-          }};
-}
 
 /// The theory itself, without cells: sums the force over the leading part of a sphere's surface, by latitude
 /// and longitude.
@@ -83,10 +29,6 @@ Eigen::Vector3d theory_of_sphere(double radius, double depth, const Eigen::Vecto
     }
   }
   return force;
-}
-
-Problem force_problem(const char* name, const char* title, const char* text) {
-  return {name, title, text, "force_error", "force, relative error", "", {}};
 }
 
 }  // namespace
@@ -116,11 +58,11 @@ Problem plate_force_problem(const ProblemOptions& options) {
     const Scene pushed = force_scene(plate, cell, 0.0), dragged = force_scene(blade, cell, 0.0);
     const double xi = resistance(pushed.strength);
     problem.contenders.push_back(force_contender(
-        "plate pushed down", label, pushed, options.threads, not_applicable, push(cell, depth, 0.0), 2,
-        0.87574 * xi * std::numbers::pi * plate.radius * plate.radius * depth));
-    problem.contenders.push_back(force_contender("blade dragged face on", label, dragged, options.threads,
-                                                 cell, push(cell, depth, 0.006), 0,
-                                                 -0.192 * xi * blade.width * depth * (0.5 * depth)));
+        "plate pushed down", label, pushed, starting_bed(pushed.bed), options.threads, not_applicable,
+        push(cell, depth, 0.0), 2, 0.87574 * xi * std::numbers::pi * plate.radius * plate.radius * depth));
+    problem.contenders.push_back(force_contender(
+        "blade dragged face on", label, dragged, starting_bed(dragged.bed), options.threads, cell,
+        push(cell, depth, 0.006), 0, -0.192 * xi * blade.width * depth * (0.5 * depth)));
   }
   return problem;
 }
@@ -130,7 +72,7 @@ Problem sphere_force_problem(const ProblemOptions& options) {
       force_problem("force-sphere", "Force on a sphere (rft)",
                     "A sphere of 10 mm radius is pushed into the sand, and dragged; the truth is resistive "
                     "force theory, summed over the leading surface. No order is fitted for the drag: parts "
-                    "that trail by less than 3 degrees count a little in the program, with any cells.");
+                    "that trail by less than 1 degree count a little in the program, with any cells.");
   const ToolSettings sphere{0.01};
   for (const int cells_per_radius : {5, 10, 20, 40}) {
     if (options.quick && cells_per_radius > 20) continue;
@@ -141,8 +83,8 @@ Problem sphere_force_problem(const ProblemOptions& options) {
       const Eigen::Vector3d motion = drags ? Eigen::Vector3d::UnitX() : Eigen::Vector3d(0.0, 0.0, -1.0);
       const int axis = drags ? 0 : 2;
       problem.contenders.push_back(force_contender(
-          series, label, scene, options.threads, drags ? not_applicable : scene.bed.cell_size(),
-          push(scene.bed.cell_size(), depth, drag), axis,
+          series, label, scene, starting_bed(scene.bed), options.threads,
+          drags ? not_applicable : scene.bed.cell_size(), push(scene.bed.cell_size(), depth, drag), axis,
           theory_of_sphere(sphere.radius, depth, motion, scene.strength)[axis]));
     };
     for (const double depth : {0.004, 0.006, 0.01})

@@ -15,6 +15,17 @@ Scene contact_scene(double width, int cells, double servo_rate) {
   return scene;
 }
 
+Scene solid_contact_scene(double width, int cells, const ToolSettings& tool) {
+  Scene scene = contact_scene(width, cells, 1000.0);
+  scene.preset = ModelPreset::accurate;
+  apply_model_preset(scene);
+  scene.relaxation.way = 0.0;
+  scene.relaxation.max_passes = 0;
+  scene.tool = tool;
+  scene.tool.solid = true;
+  return scene;
+}
+
 Stroke straight(const std::vector<Eigen::Vector3d>& positions, const std::vector<double>& seconds) {
   Stroke stroke;
   stroke.time = {0.0};

@@ -27,12 +27,17 @@ double start_of(const GrainStroke& stroke) { return is_drag(stroke) ? drag_start
 /// True if `way` [m], counted along x from the start, lies in the measured part.
 bool is_measured(double way) { return way > grain_way_from && way < grain_way_to; }
 
-/// Computes the mean force on the tool: over the measured part of a drag, or the last 0.4 mm of a plunge.
+/// Computes the mean force on the tool in the last pass: over the measured part of a drag, or the last 0.4 mm
+/// of a plunge.
 class MeanForce : public SimulationObserver {
  public:
   explicit MeanForce(const GrainStroke& stroke) : stroke_(stroke) {}
   void on_tick(const TickRecord& tick) override {
     const Eigen::Vector3d &from = tick.hand.position, &to = tick.next.position;
+    if (to.x() < from.x()) {  // back for another pass
+      sum_.setZero();
+      ticks_ = 0;
+    }
     const bool counts = is_drag(stroke_) ? is_measured(to.x() - drag_start)
                                          : to.z() < from.z() && to.z() < 4e-4 - stroke_.depth;
     if (counts) {
@@ -78,6 +83,8 @@ Scene grain_scene(const GrainStroke& stroke, ModelPreset preset, int cells_per_r
   scene.tool.shape = stroke.shape;
   scene.tool.radius = tool_radius;
   scene.tool.width = 2.0 * tool_radius;
+  scene.tool.thickness = 0.004;
+  scene.tool.height = stroke.shape == ToolShape::cone ? tool_radius : 0.024;
   if (preset == ModelPreset::accurate) scene.force.law = ForceLaw::rft;
   scene.strength.friction_angle = talus;
   scene.strength.density = bulk_density;
@@ -88,15 +95,20 @@ Scene grain_scene(const GrainStroke& stroke, ModelPreset preset, int cells_per_r
 Stroke hand_of(const GrainStroke& stroke) {
   constexpr double above = 0.0005, lifted = 0.005;     // m
   constexpr double down = 0.1, along = 0.2, up = 0.3;  // m/s
+  constexpr double back = 0.05;                        // s
   const double from = start_of(stroke), to = from + stroke.way;
-  std::vector<Eigen::Vector3d> positions = {{from, 0.0, above}, {from, 0.0, -stroke.depth}};
-  std::vector<double> seconds = {(above + stroke.depth) / down};
-  if (is_drag(stroke)) {
-    positions.emplace_back(to, 0.0, -stroke.depth);
-    seconds.push_back(stroke.way / along);
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<double> seconds;
+  const auto go = [&](double x, double z, double duration) {
+    if (!positions.empty()) seconds.push_back(duration);
+    positions.emplace_back(x, 0.0, z);
+  };
+  for (int pass = 0; pass < stroke.passes; ++pass) {
+    go(from, above, back);
+    go(from, -stroke.depth, (above + stroke.depth) / down);
+    if (is_drag(stroke)) go(to, -stroke.depth, stroke.way / along);
+    go(to, lifted, (lifted + stroke.depth) / up);
   }
-  positions.emplace_back(to, 0.0, lifted);
-  seconds.push_back((lifted + stroke.depth) / up);
   return straight(positions, seconds);
 }
 

@@ -10,13 +10,14 @@
 namespace sandstroke {
 
 /// A stroke through simulated grains, with the surface that it left and the force: means over all beds
-/// (tables in tests/accuracy/grains). The tool (R 10 mm) goes down, along x and up again. Its depth counts
-/// from the first touch of the bed.
+/// (tables in tests/accuracy/grains). The tool (R 10 mm) goes down, along x and up again, and through the air
+/// back for its next pass. Its depth counts from the first touch of the bed.
 struct GrainStroke {
   std::string name;
   ToolShape shape;
   double depth;                ///< m, depth of the tool's lowest point
   double way;                  ///< m, length of the drag along x; 0: a plunge
+  int passes;                  ///< through the same furrow; forces are the last one's
   std::vector<double> change;  ///< m, mean height change by distance from the axis, in bins of grain_bin
   double against, up;          ///< N, force on the tool: mean over the measured part, or at a plunge's end
 };

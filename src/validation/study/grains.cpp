@@ -62,7 +62,7 @@ Contender grain_contender(const GrainStroke& grains, ModelPreset preset, int cel
 Problem grains_problem(const ProblemOptions& options) {
   Problem problem{"grains",
                   "Strokes through simulated grains",
-                  "A sphere goes through beds of grains (discrete elements, R = 8 grains), and through sand "
+                  "A tool goes through beds of grains (discrete elements, R = 8 grains), and through sand "
                   "of the same talus angle; depths count from first touch. The error is the difference of "
                   "the sections over the grains' change.",
                   "l1",

@@ -149,6 +149,13 @@ class PileField {
   const ProblemOptions& options_;
 };
 
+/// What users ask of relaxation: round heaps, against cones. (Along an axis all laws are exact.)
+Problem heap_problem(const char* name, const char* title, const char* text) {
+  Problem problem = shape_problem(name, title, text);
+  problem.subject = "Heaps";
+  return problem;
+}
+
 Pile heap(SurfaceKind kind, double radius, double height, const ExactCone& cone) {
   SurfaceSettings surface;
   surface.kind = kind;
@@ -164,9 +171,9 @@ Pile heap(SurfaceKind kind, double radius, double height, const ExactCone& cone)
 Problem cylinder_problem(const ProblemOptions& options) {
   // The pile that peers are measured with (R = 60, H = 80 cells on 512 x 512).
   const double radius = 60.0 / 512.0 * pile_bed_width, height = 80.0 / 512.0 * pile_bed_width;
-  Problem problem = shape_problem("cylinder", "Cylinder to cone",
-                                  "A cylinder collapses on a flat bed; the truth is the talus cone of its "
-                                  "volume.");
+  Problem problem = heap_problem("cylinder", "Cylinder to cone",
+                                 "A cylinder collapses on a flat bed; the truth is the talus cone of its "
+                                 "volume.");
   PileField field(
       problem, heap(SurfaceKind::cylinder, radius, height, collapsed_cylinder(radius, height, talus_angle)),
       options);
@@ -177,9 +184,9 @@ Problem cylinder_problem(const ProblemOptions& options) {
 
 Problem truncated_problem(const ProblemOptions& options) {
   const double radius = 0.5, height = 0.2;
-  Problem problem = shape_problem("truncated", "Low cylinder to truncated cone",
-                                  "A low cylinder loses its edge; the truth is the truncated talus cone of "
-                                  "its volume, whose plateau is untouched.");
+  Problem problem = heap_problem("truncated", "Low cylinder to truncated cone",
+                                 "A low cylinder loses its edge; the truth is the truncated talus cone of "
+                                 "its volume, whose plateau is untouched.");
   PileField(problem,
             heap(SurfaceKind::cylinder, radius, height, collapsed_cylinder(radius, height, talus_angle)),
             options)
@@ -189,8 +196,8 @@ Problem truncated_problem(const ProblemOptions& options) {
 
 Problem cone_problem(const ProblemOptions& options) {
   const double radius = 0.5, height = 0.6;
-  Problem problem = shape_problem("cone", "Steep cone to talus cone",
-                                  "A cone of 50 degrees relaxes; the truth is the talus cone of its volume.");
+  Problem problem = heap_problem("cone", "Steep cone to talus cone",
+                                 "A cone of 50 degrees relaxes; the truth is the talus cone of its volume.");
   PileField(problem, heap(SurfaceKind::cone, radius, height, collapsed_cone(radius, height, talus_angle)),
             options)
       .add_laws_and_methods();

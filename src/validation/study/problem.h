@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <string>
@@ -98,10 +99,13 @@ struct Problem {
   std::string error;        ///< the column that counts as its error
   std::string error_title;  ///< what the column means here
   std::string error_unit;
-  std::vector<Contender> contenders;  ///< within a series, the cheap ones first
+  std::string subject = {};  ///< what users compute; its problems judge a setting together (advice.h)
+  std::vector<Contender> contenders = {};  ///< within a series, the cheap ones first
   /// Makes runs that estimate their own error. Empty if `sandstroke run` cannot run the problem.
   std::function<std::vector<ErrorCheck>()> check_errors = {};
   double converged_to = not_applicable;  ///< distance of a computed reference from a coarser one, as `error`
+  /// Errors below that of the reference say nothing; 0: it is exact.
+  double least_error() const { return std::isnan(converged_to) ? 0.0 : converged_to; }
   /// Measures the time of a tick, beside that of the paper's law, and no error: no front, no order.
   bool times_ticks = false;
   std::vector<Plot> plots = {};
@@ -150,6 +154,10 @@ Problem mesh_problem(const ProblemOptions& options);
 // The contact force, against closed forms and the theory itself (contact_forces.cpp).
 Problem plate_force_problem(const ProblemOptions& options);
 Problem sphere_force_problem(const ProblemOptions& options);
+// The sand that a tool feels, against the theory and Coulomb's wedge (felt_sand.cpp).
+Problem leaning_problem(const ProblemOptions& options);
+Problem pulled_problem(const ProblemOptions& options);
+Problem heap_force_problem(const ProblemOptions& options);
 // The time of a tick under each force law (tick_time.cpp).
 Problem tick_problem(const ProblemOptions& options);
 // The dynamic device against an almost continuous servo loop, and whole strokes against the same in finer

@@ -83,10 +83,16 @@ Scene isotropic(int by) {
 struct StrokeCase {
   const char* name;
   const char* title;
+  const char* subject;  // Problem::subject
   ModelPreset preset;
   Stroke stroke;
   bool at_rim;  // sand stands at the tool's rim: then more steps and their order matter
 };
+
+/// The preset's cell size, ways and times between relaxations, divided by a number.
+std::string label_of(int by) {
+  return by == 1 ? "the preset itself" : fmt::format("all steps divided by {}", by);
+}
 
 /// Adds a plugin's law of displacement, with all steps divided by 1, 2, 4 ... below `finest`.
 void add_plugin_law(Problem& problem, const PluginLawSettings& plugin_laws, ModelPreset preset,
@@ -99,7 +105,7 @@ void add_plugin_law(Problem& problem, const PluginLawSettings& plugin_laws, Mode
   };
   const auto law_truth = truth_when_asked<Replay>([=] { return replay(by_law(finest), stroke); });
   for (int by = 1; by < finest; by *= 2)
-    problem.contenders.push_back({series_of(plugin_laws), fmt::format("1/{} of all", by),
+    problem.contenders.push_back({series_of(plugin_laws), label_of(by),
                                   settings_of(by_law(by), options.threads), by_law(by).bed.cell_size(),
                                   [=] {
                                     const Replay run = replay(by_law(by), stroke);
@@ -127,7 +133,7 @@ Problem described(const StrokeCase& given, int finest) {
           "l1",
           "misplaced sand, fraction of the sand that moves",
           "",
-          {}};
+          given.subject};
 }
 
 Problem stroke_problem(const StrokeCase& given, const ProblemOptions& options) {
@@ -147,7 +153,7 @@ Problem stroke_problem(const StrokeCase& given, const ProblemOptions& options) {
         stroke_contender(series, label, scene, options.threads, step, stroke, truth));
   };
   const auto divide = [&](const std::string& series, const auto& scene_by) {
-    for (int by = 1; by < finest; by *= 2) add(series, fmt::format("1/{} of all", by), scene_by(by));
+    for (int by = 1; by < finest; by *= 2) add(series, label_of(by), scene_by(by));
   };
   divide(all_finer, all);
   for (const PluginLawSettings& plugin_laws : options.plugin_laws)
@@ -186,25 +192,27 @@ Problem stroke_problem(const StrokeCase& given, const ProblemOptions& options) {
 }  // namespace
 
 Problem accurate_stroke_problem(const ProblemOptions& options) {
-  return stroke_problem({"stroke-accurate", "A stroke 4 mm deep, accurate preset", ModelPreset::accurate,
-                         s_curve(0.004, 0.25, options.quick), false},
+  return stroke_problem({"stroke-accurate", "A stroke 4 mm deep, accurate preset", "Stroke 4 mm deep",
+                         ModelPreset::accurate, s_curve(0.004, 0.25, options.quick), false},
                         options);
 }
 
 Problem deep_stroke_problem(const ProblemOptions& options) {
   return stroke_problem({"stroke-deep", "A stroke as deep as the tool's radius, accurate preset",
-                         ModelPreset::accurate, s_curve(0.01, 0.25, options.quick), true},
+                         "Stroke as deep as the tool's radius", ModelPreset::accurate,
+                         s_curve(0.01, 0.25, options.quick), true},
                         options);
 }
 
 Problem reworked_stroke_problem(const ProblemOptions& options) {
-  return stroke_problem({"stroke-reworked", "A scribble 5 mm deep over its own furrows, accurate preset",
-                         ModelPreset::accurate, scribble(0.005, 0.25, options.quick), true},
-                        options);
+  return stroke_problem(
+      {"stroke-reworked", "A scribble 5 mm deep over its own furrows, accurate preset",
+       "Scribble over its furrows", ModelPreset::accurate, scribble(0.005, 0.25, options.quick), true},
+      options);
 }
 
 Problem paper_stroke_problem(const ProblemOptions& options) {
-  return stroke_problem({"stroke-paper", "A stroke 4 mm deep, paper preset", ModelPreset::paper,
+  return stroke_problem({"stroke-paper", "A stroke 4 mm deep, paper preset", "", ModelPreset::paper,
                          s_curve(0.004, 0.25, options.quick), false},
                         options);
 }
@@ -247,7 +255,7 @@ Problem hands_problem(const ProblemOptions& options) {
     };
     for (const double speed : {0.02, 0.05, 0.1, 0.5, 1.0})
       add("speed", fmt::format("{} m/s", speed), s_curve(hands.depth, speed, options.quick));
-    for (const double noise : {0.0, 2e-6, 10e-6, 55e-6})
+    for (const double noise : {2e-6, 10e-6, 55e-6})
       add("noise", fmt::format("{:.0f} um rms", 1e6 * noise), with_noise(clean, noise));
     for (const double rate : {60.0, 960.0})
       add("slopes of 5 %", fmt::format("{:.0f} relaxations a second", rate), with_slopes(clean, 0.05), rate);

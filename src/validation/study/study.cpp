@@ -168,12 +168,13 @@ bool is_disturbed(double least, double largest, double waited) {
   return largest - least > borne * least || waited > borne * least;
 }
 
-void mark_pareto(std::vector<StudyRun>& runs) {
+void mark_pareto(std::vector<StudyRun>& runs, double least) {
+  const auto error_of = [&](const StudyRun& run) { return std::max(run.error, least); };
   for (StudyRun& run : runs)
     run.pareto = !std::isnan(run.error) && std::none_of(runs.begin(), runs.end(), [&](const StudyRun& other) {
-      return other.problem == run.problem && other.error <= run.error &&
+      return other.problem == run.problem && error_of(other) <= error_of(run) &&
              other.wall_seconds <= run.wall_seconds &&
-             (other.error < run.error || other.wall_seconds < run.wall_seconds);
+             (error_of(other) < error_of(run) || other.wall_seconds < run.wall_seconds);
     });
 }
 
@@ -255,7 +256,7 @@ Study run_study(const StudyOptions& options) {
     if (problem.times_ticks) {
       compare_ticks(runs);
     } else {
-      mark_pareto(runs);
+      mark_pareto(runs, problem.least_error());
       add_orders(problem, runs, study.orders);
     }
     study.runs.insert(study.runs.end(), runs.begin(), runs.end());

@@ -56,8 +56,9 @@ Study run_study(const StudyOptions& options);
 /// the least, or the least includes more than 20 % of waiting for a processor (`waited` [s]).
 bool is_disturbed(double least, double largest, double waited);
 
-/// Sets `pareto` in runs that have an error, problem by problem.
-void mark_pareto(std::vector<StudyRun>& runs);
+/// Sets `pareto` in runs that have an error, problem by problem. Errors below `least`
+/// (Problem::least_error) count as this error.
+void mark_pareto(std::vector<StudyRun>& runs, double least = 0.0);
 
 /// Sets `of_paper` in runs that time ticks: divides by the run with the same tool and label under the paper's
 /// law.

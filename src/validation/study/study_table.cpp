@@ -8,9 +8,12 @@
 #include "core/asset.h"
 #include "core/error.h"
 #include "report/page.h"
+#include "validation/study/advice.h"
+#include "validation/study/study_summary.h"
 #include "validation/study/surface_error.h"
 
 SANDSTROKE_DECLARE_ASSET(bench);
+SANDSTROKE_DECLARE_ASSET(bench_advice);
 
 namespace sandstroke {
 namespace {
@@ -66,26 +69,6 @@ const std::vector<Column> columns = {
 };
 #undef TEXT
 #undef NUMBER
-
-/// The problem's fastest run with at most twice the least error, and the run with the least error.
-std::vector<const StudyRun*> best_of(const std::vector<StudyRun>& runs, const std::string& problem) {
-  const StudyRun *nearest = nullptr, *fastest = nullptr;
-  const auto in_race = [&](const StudyRun& run) { return run.pareto && run.problem == problem; };
-  for (const StudyRun& run : runs)
-    if (in_race(run) && (!nearest || run.error < nearest->error)) nearest = &run;
-  for (const StudyRun& run : runs)
-    if (in_race(run) && run.error <= 2.0 * nearest->error &&
-        (!fastest || run.wall_seconds < fastest->wall_seconds))
-      fastest = &run;
-  if (fastest == nearest) return nearest ? std::vector{nearest} : std::vector<const StudyRun*>{};
-  return {fastest, nearest};
-}
-
-std::string title_of(const Study& study, const std::string& problem) {
-  for (const Problem& one : study.problems)
-    if (one.name == problem) return one.title;
-  return problem;
-}
 
 }  // namespace
 
@@ -174,52 +157,38 @@ Json problem_json(const Problem& problem) {
   return json;
 }
 
-/// "*" beside the time of a disturbed run.
-std::string mark_of(const StudyRun& run) { return run.disturbed ? "*" : ""; }
-
-/// Says how many runs a busy machine disturbed. Empty: none.
-std::string disturbance(const std::vector<StudyRun>& runs) {
-  const auto disturbed =
-      std::count_if(runs.begin(), runs.end(), [](const StudyRun& run) { return run.disturbed; });
-  if (disturbed == 0) return "";
-  return fmt::format(
-      "{} of {} runs (marked *) were disturbed by other programs: their repeats differ by more than 20 %, or "
-      "waited "
-      "for a processor. Their times may be too long. Measure again when nothing else runs.",
-      disturbed, runs.size());
-}
-
-/// The time of a tick under each law, and its ratio to the paper's.
-std::string ticks_text(const std::vector<StudyRun>& runs) {
-  std::vector<std::string> tools, labels, laws, marks;
-  std::vector<double> times, of_paper;
-  for (const StudyRun& run : runs) {
-    if (std::isnan(run.of_paper)) continue;
-    tools.push_back(run.settings.tool);
-    labels.push_back(run.label);
-    laws.push_back(run.settings.force_law);
-    times.push_back(run.error);
-    of_paper.push_back(run.of_paper);
-    marks.push_back(mark_of(run));
+/// The settings of each subject, the fast ones first. front: no other is as exact and as fast.
+Json advice_json(const std::vector<Advice>& advice) {
+  Json json = Json::array();
+  for (const Advice& one : advice) {
+    Json settings = Json::array();
+    for (const AdvisedSetting& setting : one.settings)
+      settings.push_back({{"series", setting.series},
+                          {"label", setting.label},
+                          {"error", setting.error},
+                          {"seconds", setting.seconds},
+                          {"disturbed", setting.disturbed},
+                          {"front", setting.front}});
+    json.push_back({{"subject", one.subject}, {"problems", one.problems}, {"settings", std::move(settings)}});
   }
-  if (times.empty()) return "";
-  return "\nTime of a tick\n" + aligned_text({{{"tool", "Tool", "", tools},
-                                               {"label", "Settings", "", labels},
-                                               {"force_law", "Force law", "", laws},
-                                               {"tick_microseconds", "Time", "us", times},
-                                               {"of_paper", "Over paper", "", of_paper},
-                                               {"disturbed", "", "", marks}}},
-                                             3);
+  return json;
 }
 
 }  // namespace
 
 Json study_json(const Study& study) {
   const Table runs = runs_table(study.runs), orders = orders_table(study.orders);
-  Json json{
-      {"machine", describe_machine()}, {"quick", study.quick},  {"problems", Json::array()},
-      {"columns", columns_json(runs)}, {"runs", Json::array()}, {"orders", Json::array()},
-      {"estimates", Json::array()},    {"notes", study.notes},  {"disturbance", disturbance(study.runs)}};
+  Json json{{"machine", describe_machine()},
+            {"quick", study.quick},
+            {"asked_errors", asked_errors},
+            {"advice", advice_json(advise(study))},
+            {"problems", Json::array()},
+            {"columns", columns_json(runs)},
+            {"runs", Json::array()},
+            {"orders", Json::array()},
+            {"estimates", Json::array()},
+            {"notes", study.notes},
+            {"disturbance", disturbance(study.runs)}};
   for (const Problem& problem : study.problems) json["problems"].push_back(problem_json(problem));
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
     const std::vector<double>& slopes = study.runs[i].score.slope_errors;
@@ -242,60 +211,8 @@ Json study_json(const Study& study) {
 }
 
 std::string bench_page(const Json& study) {
-  return html_page("sandstroke bench", {.scripts = {SANDSTROKE_ASSET(bench)}}, study);
-}
-
-namespace {
-
-/// Writes these columns of runs_table() for some runs, and their errors.
-std::string runs_text(const Study& study, const std::vector<StudyRun>& runs,
-                      std::initializer_list<const char*> names) {
-  std::vector<double> errors;
-  std::vector<std::string> marks;
-  for (const StudyRun& run : runs) {
-    errors.push_back(run.error);
-    marks.push_back(mark_of(run));
-  }
-  Table table;
-  const Table all = runs_table(runs);
-  for (const char* name : names)
-    for (const TableColumn& column : all.columns)
-      if (column.name == name) table.columns.push_back(column);
-  table.columns.push_back({"error", "Error", "", errors});
-  table.columns.push_back({"disturbed", "", "", marks});
-  for (TableColumn& column : table.columns)
-    if (column.name == "problem")
-      for (std::string& name : std::get<std::vector<std::string>>(column.values))
-        name = title_of(study, name);
-  return aligned_text(table, 3);
-}
-
-}  // namespace
-
-std::string study_summary(const Study& study) {
-  std::vector<StudyRun> best, external;
-  for (const Problem& problem : study.problems) {
-    const std::vector<const StudyRun*> ends = best_of(study.runs, problem.name);
-    for (const StudyRun* run : ends) best.push_back(*run);
-  }
-  for (const StudyRun& run : study.runs)
-    if (run.external) external.push_back(run);
-  std::string text = "Most accurate run, and fastest run with at most twice its error\n" +
-                     runs_text(study, best, {"problem", "series", "label", "wall_seconds", "passes"});
-  if (!external.empty())
-    text += "\nRules from outside the program (converged: 1 = at rest; drift: fraction of the moved sand)\n" +
-            runs_text(study, external,
-                      {"problem", "series", "label", "wall_seconds", "passes", "converged", "volume_drift"});
-  if (!study.orders.empty())
-    text += "\nOrders of convergence\n" + aligned_text(orders_table(study.orders), 3);
-  text += ticks_text(study.runs);
-  for (const Problem& problem : study.problems)
-    if (!std::isnan(problem.converged_to))
-      text += fmt::format("\n{}: the reference has an error of about {:.2g}\n", problem.title,
-                          problem.converged_to);
-  for (const std::string& note : study.notes) text += "\n" + note + "\n";
-  if (const std::string said = disturbance(study.runs); !said.empty()) text += "\n* " + said + "\n";
-  return text;
+  return html_page("sandstroke bench", {.scripts = {SANDSTROKE_ASSET(bench_advice), SANDSTROKE_ASSET(bench)}},
+                   study);
 }
 
 }  // namespace sandstroke

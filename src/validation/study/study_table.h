@@ -18,7 +18,4 @@ nlohmann::ordered_json study_json(const Study& study);
 /// The page that draws them, as HTML.
 std::string bench_page(const nlohmann::ordered_json& study);
 
-/// The result for a terminal: the fastest and the nearest of each problem, and the orders.
-std::string study_summary(const Study& study);
-
 }  // namespace sandstroke

@@ -80,14 +80,8 @@ Problem tick_problem(const ProblemOptions& options) {
   const auto add = [&](const std::string& name, const ToolSettings& tool, int cells_per_radius,
                        double depth) {
     constexpr double width = 0.2;  // m
-    Scene scene =
-        contact_scene(width, static_cast<int>(std::lround(width / sphere.radius)) * cells_per_radius, 1000.0);
-    scene.preset = ModelPreset::accurate;
-    apply_model_preset(scene);
-    scene.relaxation.way = 0.0;
-    scene.relaxation.max_passes = 0;
-    scene.tool = tool;
-    scene.tool.solid = true;
+    const Scene scene = solid_contact_scene(
+        width, static_cast<int>(std::lround(width / sphere.radius)) * cells_per_radius, tool);
     const Stroke stroke = straight({{-0.5 * way, 0.0, -depth}, {0.5 * way, 0.0, -depth}}, {way / speed});
     for (const Law& law : laws)
       problem.contenders.push_back(tick_contender(

@@ -40,7 +40,10 @@ def tops(shape, size, apart_x, apart_y, z, radius):
     if shape == "cone":  # flanks of 45 degrees
         tip = z + np.sqrt(np.maximum(radius**2 - far**2, 0.0))
         return np.where(far < radius / np.sqrt(2.0), tip, z + radius * np.sqrt(2.0) - far)
-    over = np.hypot(np.maximum(np.abs(apart_x) - 2.0, 0.0), np.maximum(np.abs(apart_y) - size, 0.0))  # blade
+    if shape == "plate":
+        over = np.maximum(far - size, 0.0)
+    else:  # blade
+        over = np.hypot(np.maximum(np.abs(apart_x) - 2.0, 0.0), np.maximum(np.abs(apart_y) - size, 0.0))
     return np.where(over < radius, z + np.sqrt(np.maximum(radius**2 - over**2, 0.0)), -np.inf)
 
 

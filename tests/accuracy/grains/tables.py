@@ -12,14 +12,21 @@ HERE = Path(__file__).parent
 START = 15.0  # mm, x of a drag's start and of a plunge
 FROM, TO = 20.0, 37.0  # mm from there: where drags are measured
 STRETCH = 8.5  # mm, of the way, for what is not steady yet
-# name: bed, shape, R, depth, way, shift [mm]; as in `run`
+# name: bed, shape, R, depth, way, shift [mm]; as in `run`. Of a stroke with more than one pass the last is measured.
 STROKES = {
     "sphere-2-a": (1, "sphere", 10.0, 2.0, 45.0, 0.0),
     "sphere-4-a": (1, "sphere", 10.0, 4.0, 45.0, 0.0),
     "sphere-6-a": (1, "sphere", 10.0, 6.0, 45.0, 0.0),
     "plunge-6-a": (1, "sphere", 10.0, 6.0, 0.0, 0.0),
     "plunge-6-b": (2, "sphere", 10.0, 6.0, 0.0, 14.0),
+    "again-4-a": (1, "sphere", 10.0, 4.0, 45.0, 0.0),
+    "again-4-b": (2, "sphere", 10.0, 4.0, 45.0, 14.0),
     "blade-4-a": (1, "blade", 10.0, 4.0, 45.0, 0.0),
+    "blade-4-b": (2, "blade", 10.0, 4.0, 45.0, 14.0),
+    "cone-6-a": (1, "cone", 10.0, 6.0, 0.0, 0.0),
+    "cone-6-b": (2, "cone", 10.0, 6.0, 0.0, 14.0),
+    "plate-4-a": (1, "plate", 10.0, 4.0, 0.0, 0.0),
+    "plate-4-b": (2, "plate", 10.0, 4.0, 0.0, 14.0),
     "sphere-2-b": (2, "sphere", 10.0, 2.0, 45.0, 14.0),
     "sphere-4-b": (2, "sphere", 10.0, 4.0, 45.0, 14.0),
     "sphere-6-b": (2, "sphere", 10.0, 6.0, 45.0, 14.0),
@@ -79,8 +86,8 @@ def main(folder):
         groove = grains.of_section(middle, change) if way > 0.0 else [""] * 4
         strokes.append([name, bed, shape, size, depth, *touch_along(folder, name), *groove,
                         grains.above_over_below(before, after)])
-        dx, deep, fx, _, fz = np.loadtxt(folder / f"{name}.force").T[2:]
-        dx, deep = dx * 1e3, deep * 1e3
+        dx, deep, fx, _, fz, of = np.loadtxt(folder / f"{name}.force").T[2:]
+        dx, deep, fx, fz = (one[of == of.max()] for one in (dx * 1e3, deep * 1e3, fx, fz))
         sinks = np.diff(deep, prepend=-1.0) > 0.19  # 0.2 mm from record to record
         counts = (dx > FROM) & (dx < TO) if way > 0.0 else sinks & (deep > depth - 0.4)
         forces.append([name, fx[counts].mean(), fx[counts].std(), -fz[counts].mean(), fz[counts].std()])

@@ -16,6 +16,7 @@ struct Part {
 class StressPart : public testing::TestWithParam<Part> {};
 INSTANTIATE_TEST_SUITE_P(Quick, StressPart,
                          testing::Values(Part{"DeviceLoop", stress_device_loop},
+                                         Part{"ContactLoops", stress_contact_loops},
                                          Part{"Relaxation", stress_relaxation},
                                          Part{"Strokes", stress_strokes}),
                          [](const auto& part) { return part.param.name; });

@@ -51,11 +51,23 @@ TEST(AnyToolProblems, ForcesOnPlatesAreThoseOfTheTheory) {
   EXPECT_LT(blade[2], 0.005);
 }
 
+TEST(AnyToolProblems, ForcesOnFacesThatLookUpAreThoseOfTheTheory) {
+  for (const char* problem : {"leaning", "pulled"})
+    for (const auto& [series, errors] : errors_of(problem))
+      for (const double error : errors) EXPECT_LT(error, 0.01) << problem << ", " << series;
+  for (const auto& [series, errors] : errors_of("heap"))
+    for (const double error : errors) EXPECT_LT(error, 0.1) << series;
+}
+
 TEST(AnyToolProblems, ForcesOnASphereAreThoseOfTheTheory) {
   for (const auto& [series, errors] : errors_of("force-sphere")) {
     ASSERT_EQ(errors.size(), 3u);
-    EXPECT_LT(errors[2], series.starts_with("pushed") ? 0.3 * errors[0] : 0.01) << series;
-    EXPECT_LT(errors[2], 0.01) << series;  // pushed: 1.0, 0.3, 0.1 %; dragged: within 0.6 %
+    if (series.starts_with("pushed")) {
+      EXPECT_LT(errors[2], 0.3 * errors[0]) << series;
+      EXPECT_LT(errors[2], 0.01) << series;  // 1.0, 0.3, 0.1 %
+    } else {
+      EXPECT_LT(errors[2], 0.03) << series;  // 2.2 %: the furrow behind counts a little
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "validation/study/study_summary.h"
 #include "validation/study/surface_error.h"
 
 namespace sandstroke {
@@ -56,7 +57,7 @@ TEST(StudyJson, HoldsWhatComesWithAProblem) {
   heap.measured = {{"sand", "a plate", 2.0, 2.5, "somebody"}};
   const nlohmann::ordered_json json = study_json(study)["problems"][0];
   EXPECT_EQ(json["plots"][0]["curves"][0]["look"], "dashed");
-  EXPECT_EQ(json["plots"][0]["curves"][0]["y"], nlohmann::json({2.0, 3.0}));
+  EXPECT_EQ(json["plots"][0]["curves"][0]["y"], nlohmann::ordered_json({2.0, 3.0}));
   EXPECT_EQ(json["plots"][0]["looks"][0]["text"], "a theory");
   EXPECT_EQ(json["measured"][0]["off"], 0.25);
   EXPECT_EQ(json["times_ticks"], false);

@@ -53,6 +53,14 @@ TEST(Pareto, FrontIsWhatNothingBeatsInBoth) {
   EXPECT_EQ(front, (std::vector<bool>{true, true, false, false, false, true, true}));
 }
 
+TEST(Pareto, NoRunIsMoreExactThanTheReference) {
+  std::vector<StudyRun> runs = {run_of("a", 1.0, 0.1), run_of("a", 2.0, 0.02), run_of("a", 3.0, 1e-9)};
+  mark_pareto(runs, 0.02);
+  EXPECT_TRUE(runs[0].pareto);
+  EXPECT_TRUE(runs[1].pareto);
+  EXPECT_FALSE(runs[2].pareto) << "below 0.02 nothing is known, and it is slower";
+}
+
 TEST(Disturbance, IsWhatRepeatsDifferByOrWaited) {
   EXPECT_FALSE(is_disturbed(1.0, 1.19, 0.0));
   EXPECT_TRUE(is_disturbed(1.0, 1.21, 0.0));

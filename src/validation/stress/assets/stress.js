@@ -1,21 +1,19 @@
 "use strict";
-// The stability report: the outcome, maps of verdicts over two settings, measured boundaries against exact ones,
+// The stability report: the margins (margins.js), the outcome, maps of verdicts over two settings, measured boundaries against exact ones,
 // traces, and every case.
 
-// Light to dark from harmless to bad, each with a sign, so that grey print tells them apart.
 const verdicts = new Map([
-  ["stable", { fill: "#d3e6f2", sign: "", ink: "#1d2329" }],
-  ["limit cycle", { fill: "#efb23e", sign: "~", ink: "#1d2329" }],
-  ["refused", { fill: "#c3c9ce", sign: "–", ink: "#1d2329" }],
-  ["not converged", { fill: "#7a63b3", sign: "⋯", ink: "#ffffff" }],
-  ["diverged", { fill: "#ad3a06", sign: "×", ink: "#ffffff" }],
-  ["broken", { fill: "#111111", sign: "!", ink: "#ffffff" }],
+  ["stable", { ...verdictLooks.fine, sign: "" }],
+  ["limit cycle", { ...verdictLooks.restless, sign: "~" }],
+  ["refused", { fill: "#c3c9ce", sign: "–", ink: darkInk }],
+  ["not converged", { ...verdictLooks.worse, sign: "⋯" }],
+  ["diverged", { ...verdictLooks.lost, sign: "×" }],
+  ["broken", { fill: "#111111", sign: "!", ink: lightInk }],
 ]);
-const unknownVerdict = { fill: "#ffffff", sign: "?", ink: "#1d2329" };
+const unknownVerdict = { fill: lightInk, sign: "?", ink: darkInk };
 const lookOfVerdict = (name) => verdicts.get(name) ?? unknownVerdict;
-const surpriseColour = "#ff5fb0";
-const theory = [{ colour: "#000000", dash: "solid" }, { colour: "#00695c", dash: "dashed" },
-                { colour: "#6a1b9a", dash: "dotted" }, { colour: "#0b5c8f", dash: "solid" }];
+const theory = [{ colour: "var(--ink)", dash: "solid" }, { colour: "var(--good)", dash: "dashed" },
+                { colour: "var(--violet)", dash: "dotted" }, { colour: "var(--accent)", dash: "solid" }];
 
 function mapChart(map) {
   const named = ({ name, unit, logarithmic }) => ({ logarithmic, margin: 0, title: name, unit });
@@ -30,9 +28,9 @@ function mapChart(map) {
     verdict, i, j, surprise: map.surprise[j]?.[i] === true,
   })));
   const surprises = cells.filter((cell) => cell.surprise);
-  // A white line beneath each curve, because curves cross dark and light.
+  // A line of the paper's colour beneath each curve, because curves cross dark and light.
   const curves = map.curves.flatMap((curve, i) => [
-    lineOf(curve.name, curve.points, x, y, { colour: "#ffffff", width: 5 }, { z: 2, clip: true }),
+    lineOf(curve.name, curve.points, x, y, { colour: "var(--paper)", width: 5 }, { z: 2, clip: true }),
     lineOf(curve.name, curve.points, x, y, { ...theory[i % theory.length], width: 2 }, { z: 3, clip: true }),
   ]);
   const present = [...verdicts.keys()].map((name) => [name, cells.filter((cell) => cell.verdict === name).length])
@@ -40,8 +38,21 @@ function mapChart(map) {
   const legend = present.map(([name, cellCount]) =>
     ({ name, text: `${name}, ${count(cellCount, "cell")}`, ...lookOfVerdict(name) }));
   if (surprises.length > 0)
-    legend.push({ name: "surprise", text: count(surprises.length, "surprise"), fill: "#ffffff",
-                  colour: surpriseColour });
+    legend.push({ name: "surprise", text: count(surprises.length, "surprise"), fill: "var(--paper)",
+                  colour: outlineColour });
+  const seen = map.marks.filter((mark) => [[x, mark.x], [y, mark.y]].every(([scale, value]) =>
+    value >= scale.from * 0.999 && value <= scale.to * 1.001));
+  const lookOfMark = (mark) => ({ symbol: symbols[map.marks.indexOf(mark)], colour: "var(--ink)", dash: "none" });
+  for (const mark of map.marks) {
+    const where = seen.includes(mark) ? mark.same ? "" : " (its other settings differ from the map's)"
+                                      : ", which is outside this map";
+    legend.push({ name: mark.name, text: `${mark.name}: ${mark.stable ? "stable" : "unstable"}${where}`, ...lookOfMark(mark) });
+  }
+  const marks = seen.map((mark) => ({
+    type: "scatter", name: mark.name, silent: true, symbol: outlined(lookOfMark(mark).symbol), symbolSize: 13, z: 5,
+    itemStyle: { color: mark.same ? darkInk : lightInk, borderColor: mark.same ? lightInk : darkInk, borderWidth: 2 },
+    data: [[x.at(mark.x), y.at(mark.y)]],
+  }));
   legend.push(...map.curves.map((curve, i) => ({ name: curve.name, series: true, ...theory[i % theory.length] })));
   const tip = ({ verdict, surprise, i, j }) =>
     tipOf(surprise ? `${verdict}: a surprise` : verdict, [[withUnit(map.x.name, map.x.unit), map.x.values[i]],
@@ -53,7 +64,7 @@ function mapChart(map) {
       xAxis: { ...x.axis, splitLine: { show: false } },
       yAxis: { ...y.axis, nameGap: 46, splitLine: { show: false } },
       series: [cellSeries("verdict", cells, ({ verdict }) => lookOfVerdict(verdict)), ...curves,
-               outlineSeries("surprise", surprises, surpriseColour)],
+               outlineSeries("surprise", surprises), ...marks],
     },
   });
 }
@@ -77,15 +88,15 @@ function boundaryCharts(boundaries) {
   const ratio = scaleOf([0.97, 1.03, ...usable.map((one) => one.measured / one.exact)],
                         { title: "measured / exact" });
   const measured = { ...points("measured", blue, x, ratio, (one) => one.measured / one.exact),
-                     markArea: { silent: true, itemStyle: { color: "#009e73", opacity: 0.12 },
+                     markArea: { silent: true, itemStyle: { color: "var(--within)" },
                                  data: [[{ yAxis: 0.98 }, { yAxis: 1.02 }]] } };
-  const one = lineOf("exact", [[x.from, 1], [x.to, 1]], x, ratio, { colour: "#333333", width: 1 });
+  const one = lineOf("exact", [[x.from, 1], [x.to, 1]], x, ratio, { colour: neutral, width: 1 });
   const charts = [chart({
     title: "Measured against exact boundary",
     note: "The largest stable stiffness, found by bisection, divided by the stiffness at which an eigenvalue of the " +
       "one-tick map leaves the unit circle.",
     legend: [{ name: "measured", ...blue, dash: "none", series: true },
-             { name: "band", text: "within 2 %", fill: "#dff2ec" }],
+             { name: "band", text: "within 2 %", fill: "var(--within)" }],
     option: { ...base, xAxis: x.axis, yAxis: { ...ratio.axis, nameGap: 46 }, series: [one, measured] },
   })];
 
@@ -99,9 +110,9 @@ function boundaryCharts(boundaries) {
         "up to which the loop is stable.",
       legend: [{ name: "measured", text: "stable up to, measured", ...blue, dash: "none", series: true },
                { name: "passive", text: "passive up to", ...orange, dash: "none", series: true },
-               { name: "exact", text: "exact boundary", colour: "#333333", dash: "solid", series: true }],
+               { name: "exact", text: "exact boundary", colour: neutral, dash: "solid", series: true }],
       option: { ...base, xAxis: x.axis, yAxis: { ...y.axis, nameGap: 46 }, series: [
-        lineOf("exact", [[x.from, x.from], [x.to, x.to]], x, y, { colour: "#333333", width: 1 }, { clip: true }),
+        lineOf("exact", [[x.from, x.from], [x.to, x.to]], x, y, { colour: neutral, width: 1 }, { clip: true }),
         points("measured", blue, x, y, (item) => item.measured, usable.filter((item) => item.measured > 0)),
         points("passive", orange, x, y, (item) => item.passive, passive)] },
     }));
@@ -174,11 +185,12 @@ drawPage((data, main) => {
   main.append(el("h1", {}, document.title), machineLine(data.machine));
   if (data.quick)
     main.append(el("p", { class: "warning" }, "A quick run: coarser maps, fewer and shorter cases."));
+  if (data.margins.length > 0) main.append(marginSection(data.margins));
   const nothing = cases.length + mapCells + boundaries.length === 0;
   if (nothing) {
     main.append(el("p", {}, "Nothing was tested: this report holds no cases and no maps."));
   } else {
-    main.append(
+    main.append(...[
       el("dl", { class: "facts" }, fact("Surprises", format(surprises), surprises ? "bad" : "good"),
          fact("Cases", format(cases.length)), fact("Map cells", format(mapCells)),
          fact("Boundaries", format(boundaries.length)),
@@ -186,10 +198,12 @@ drawPage((data, main) => {
       el("p", {}, surprises
         ? el("span", { class: "bad" }, `${count(surprises, "verdict was", "verdicts were")} not as expected.`)
         : "Every case ended as expected."),
+      maps.some((map) => map.marks.length > 0) ? el("p", {}, "Symbols in the maps show where the settings above are on " +
+        "the axes. A symbol is filled where the map's other settings are the same too.") : null,
       el("p", {}, "Each case and each cell of a map has a verdict. Theory or common sense expects one or several. Any " +
         "other verdict is a surprise and is outlined. The signs are:"),
       el("ul", { class: "legend" },
-         ...[...verdicts].map(([name, look]) => el("li", {}, verdictMark(look, name)))));
+         ...[...verdicts].map(([name, look]) => el("li", {}, verdictMark(look, name))))].filter(Boolean));
   }
   const sections = [
     ["maps", "Maps", maps, () => [el("div", { class: "charts" }, ...maps.map(mapChart))]],

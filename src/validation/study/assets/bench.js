@@ -1,5 +1,5 @@
 "use strict";
-// The page of bench: for each problem run time against error, error against resolution and slope errors by direction;
+// The page of bench: advice (advice.js), then for each problem run time against error, error against resolution and slope errors by direction;
 // then orders, estimates and all runs as tables.
 
 /** The series, in the order of the runs. */
@@ -18,10 +18,9 @@ drawPage((data, main) => {
 
   /** The points of a series as a line with the look of the series. */
   const curve = (problem, series, points, x, y, xName) => {
-    const { colour, symbol, dash } = looks.get(series);
+    const look = looks.get(series);
     return {
-      type: "line", name: series, symbol: outlined(symbol), symbolSize: 8, itemStyle: { color: colour },
-      lineStyle: { color: colour, type: dash, width: 1.75 }, emphasis: { focus: "series" },
+      type: "line", name: series, symbol: outlined(look.symbol), symbolSize: 8, ...lineStyles(look, "series"),
       data: points.map((run) => ({ value: [x.at(run[xName]), y.at(run[problem.error])], run })),
     };
   };
@@ -39,7 +38,7 @@ drawPage((data, main) => {
   /** A line, and its name in the legend, where the problem's reference is itself only converged so far. */
   const addReference = (problem, x, y, lines, legend) => {
     if (!plotted(problem, "converged_to")) return;
-    const look = { colour: "#5b6670", dash: "dotted" };
+    const look = { colour: "var(--quiet)", dash: "dotted" };
     lines.push(lineOf("converged", [[x.from, problem.converged_to], [x.to, problem.converged_to]], x, y, look));
     legend.push({ name: "converged", text: "error of the reference itself", series: true, ...look });
   };
@@ -63,16 +62,16 @@ drawPage((data, main) => {
       const [first, last] = [front[0], front.at(-1)];
       lines.push({
         type: "line", name: "front", step: "end", silent: true, symbol: "none", z: 1,
-        lineStyle: { color: "#333333", width: 5, opacity: 0.16 },
+        lineStyle: { color: neutral, width: 5, opacity: 0.16 },
         data: [[x.at(first.wall_seconds), y.high],
                ...front.map((run) => [x.at(run.wall_seconds), y.at(run[problem.error])]),
                [x.high, y.at(last[problem.error])]],
       }, {
         type: "scatter", name: "front", silent: true, symbol: "circle", symbolSize: 15, z: 4,
-        itemStyle: { color: "transparent", borderColor: "#1d2329", borderWidth: 1.5 },
+        itemStyle: { color: "transparent", borderColor: "var(--ink)", borderWidth: 1.5 },
         data: front.map((run) => [x.at(run.wall_seconds), y.at(run[problem.error])]),
       });
-      legend.push({ name: "front", text: "Pareto front: no run is both faster and more exact", colour: "#1d2329",
+      legend.push({ name: "front", text: "Pareto front: no run is both faster and more exact", colour: "var(--ink)",
                     symbol: symbols[0], hollow: true, dash: "none", series: true });
     }
     addReference(problem, x, y, lines, legend);
@@ -125,21 +124,20 @@ drawPage((data, main) => {
       .filter((value) => at(value) > low + 0.4 && at(value) < high).sort((a, b) => a - b);
     const circle = (value) => ({
       type: "line", coordinateSystem: "polar", silent: true, symbol: "none", z: 1,
-      ...(Math.abs(value) > bound ? { name: "grid", lineStyle: { color: "#e9edef", width: 1 } }
-        : { name: "bound", lineStyle: { color: "#1d2329", width: 1, type: value === 0 ? "solid" : "dashed" } }),
+      ...(Math.abs(value) > bound ? { name: "grid", lineStyle: { color: "var(--faint-rule)", width: 1 } }
+        : { name: "bound", lineStyle: { color: "var(--ink)", width: 1, type: value === 0 ? "solid" : "dashed" } }),
       data: Array.from({ length: 181 }, (_, i) => [at(value), 2 * i]),
     });
     const lines = finest.map((run) => {
-      const { colour, symbol, dash } = looks.get(run.series);
+      const look = looks.get(run.series);
       const points = run.directions.map((direction, i) => ({
         value: [at(run.slope_error[i]), direction], direction, error: run.slope_error[i], run }));
       const gap = Math.max(...run.directions.slice(1).map((direction, i) => direction - run.directions[i]));
       const closes = 360 - (run.directions.at(-1) - run.directions[0]) <= 1.5 * gap;
       if (closes) points.push({ ...points[0], value: [points[0].value[0], run.directions[0] + 360] });
       return {
-        type: "line", coordinateSystem: "polar", name: run.series, symbol: outlined(symbol), symbolSize: 5,
-        itemStyle: { color: colour }, lineStyle: { color: colour, type: dash, width: 1.75 },
-        emphasis: { focus: "series" }, data: points,
+        type: "line", coordinateSystem: "polar", name: run.series, symbol: outlined(look.symbol), symbolSize: 5,
+        ...lineStyles(look, "series"), data: points,
       };
     });
     const tipOfPoint = ({ direction, error, run }) =>
@@ -148,7 +146,7 @@ drawPage((data, main) => {
       name: run.series, series: true, ...looks.get(run.series),
       text: run.series + (isNumber(run.cells) ? `, ${format(run.cells)} cells` : ""),
     }));
-    legend.push({ name: "bound", text: "no error, and ±0.15°", series: true, colour: "#1d2329", dash: "dashed" });
+    legend.push({ name: "bound", text: "no error, and ±0.15°", series: true, colour: "var(--ink)", dash: "dashed" });
     return chart({
       title: "Slope error by direction",
       note: "Degrees by which the slope is too steep (outwards) or too flat (inwards), at the finest resolution. " +
@@ -158,13 +156,13 @@ drawPage((data, main) => {
         ...chartBase((item) => item.data?.run && tipOfPoint(item.data)),
         polar: { radius: "78%", center: ["50%", "50%"] },
         angleAxis: { type: "value", min: 0, max: 360, interval: 45, startAngle: 0, clockwise: false,
-                     axisLine: { lineStyle: { color: "#8b969e" } }, axisTick: { show: false },
-                     axisLabel: { formatter: (angle) => `${angle}°`, color: "#1d2329", fontSize: 11 },
-                     splitLine: { lineStyle: { color: "#e9edef" } } },
+                     axisLine: { lineStyle: { color: "var(--axis)" } }, axisTick: { show: false },
+                     axisLabel: { formatter: (angle) => `${angle}°`, color: "var(--ink)", fontSize: 11 },
+                     splitLine: { lineStyle: { color: "var(--faint-rule)" } } },
         radiusAxis: { type: "value", min: low, max: high, axisLine: { show: false }, axisTick: { show: false },
                       splitLine: { show: false }, z: 5, axisLabel: {
                         customValues: rings.filter((value) => value !== -bound).map(at), fontSize: 10,
-                        backgroundColor: "#ffffffd0", padding: [1, 2], color: "#1d2329",
+                        backgroundColor: "var(--veil)", padding: [1, 2], color: "var(--ink)",
                         formatter: (position) => tickText(Number((bound * Math.sinh(position)).toPrecision(3))) } },
         series: [...rings.map(circle), ...lines],
       },
@@ -182,11 +180,10 @@ drawPage((data, main) => {
       const data = positions.map((position, i) => ({ value: [x.at(position), y.at(values[i])], along: position,
                                                       value_there: values[i] }));
       return { type: "line", name, data, symbol: symbol ? outlined(symbol) : "none", symbolSize: 8,
-               itemStyle: { color: colour },
-               lineStyle: { color: colour, type: dash === "none" ? "solid" : dash, width: symbol ? 0 : 1.75 } };
+               ...lineStyles({ colour, dash: dash === "none" ? "solid" : dash, width: symbol ? 0 : 1.75 }) };
     });
     const legend = [...names.map((name, i) => ({ name, series: true, colour: lookOf(i).colour })),
-                    ...meanings.map(({ look, text }) => ({ name: text, colour: "#333333", ...lookIn[look] }))];
+                    ...meanings.map(({ look, text }) => ({ name: text, colour: neutral, ...lookIn[look] }))];
     const option = {
       ...chartBase(({ seriesName, data }) => tipOf(seriesName, [[x_title, data.along], [y_title, data.value_there]])),
       xAxis: x.axis, yAxis: { ...y.axis, nameGap: 46 }, series };
@@ -219,9 +216,10 @@ drawPage((data, main) => {
   }
 
   main.append(el("h1", {}, document.title), machineLine(data.machine));
-  if (data.quick)
-    main.append(el("p", { class: "warning" }, "A quick bench: few and coarse runs, to check that everything works."));
-  if (data.disturbance) main.append(el("p", { class: "warning" }, data.disturbance));
+  const warnings = [data.quick ? "A quick bench: few and coarse runs, to check that everything works." : "",
+                    data.disturbance].filter(Boolean);
+  if (warnings.length > 0) main.append(el("p", { class: "warning" }, warnings.join(" ")));
+  if (data.advice.length > 0) main.append(adviceSection(data.advice, data.asked_errors));
   if (runs.length === 0) {
     main.append(el("p", {}, "Nothing was measured: this bench holds no runs."));
   } else {
