@@ -26,25 +26,27 @@ class DepthOnHand : public HandForce {
   double scene_limit_;  // N; 0: none
 };
 
-/// The wrench of sand that is weakened to what the hand may get (Wrench::limited).
+/// The wrench of sand that is weakened to what the hand may get (Wrench::given).
 class ContactOnHand : public HandForce {
  public:
   ContactOnHand(const Scene& scene, double cell_size, const PointPlacement& placement, double largest_force)
-      : force_(make_contact_force(scene, cell_size)),
-        placement_(placement),
+      : placement_(placement),
         scene_limit_(scene.device.max_force),
-        largest_force_(scene_limit_ > 0.0 ? std::min(largest_force, scene_limit_) : largest_force) {}
+        largest_force_(scene_limit_ > 0.0 ? std::min(largest_force, scene_limit_) : largest_force) {
+    Scene limited = scene;
+    limited.device.max_force = largest_force_;
+    force_ = make_contact_force(limited, cell_size);
+  }
 
   void turn(const Eigen::Matrix3d& rotation) override { force_->turn(rotation); }
   void lift() override { force_->lift(); }
 
   void feel(const MovedTool& tool, FeltForce& felt) override {
     const Wrench full = force_->in_tick(tool.sand, tool.bed, tool.tip, tool.motion, tool.interaction.contact);
-    const Wrench given = full.limited(largest_force_);
-    felt.force = placement_.force_back(given.force);
-    felt.due = given.strength;
+    felt.force = placement_.force_back(full.given);
+    felt.due = full.limited(largest_force_).strength;
     // Cut by more than a run of the scene would cut it.
-    if (full.limited(scene_limit_).strength > given.strength) felt.flags |= clamped_force;
+    if (full.limited(scene_limit_).strength > largest_force_) felt.flags |= clamped_force;
   }
 
  private:

@@ -10,6 +10,7 @@
 #include "record/bed_replica.h"
 #include "record/spsc_ring.h"
 #include "sand/relaxation.h"
+#include "sim/sand_at_rest.h"
 #include "sim/sand_side.h"
 
 namespace sandstroke {
@@ -42,13 +43,15 @@ class LiveRelaxer {
               std::unique_ptr<Relaxer> relaxer = nullptr);
   ~LiveRelaxer() { stop(); }
 
-  /// Shows the bed to `onlooker` after every turn, in the thread that relaxes. Call it before start().
-  void show_to(std::function<void(const HeightField&)> onlooker) { onlooker_ = std::move(onlooker); }
+  /// Shows the bed to `onlooker` up to 60 times a second, as it or the tool changes, in the thread that
+  /// relaxes: at rest (SandAtRest), or on its way where it has far to go. It is always the same object. A
+  /// picture delays relaxation by up to some 5 ms. Call it before start().
+  void show_to(std::function<void(const HeightField&)> onlooker);
   /// Starts a thread that relaxes settings.rate times a second and by the tool's way, from the first pose of
   /// the tool on. Where a relaxation takes longer, the next one follows at once. Sand with far to go takes
   /// several turns. Displaced sand is taken at least 60 times a second.
   void start();
-  /// Ends that thread after the relaxation in progress.
+  /// Ends that thread after the relaxation or picture in progress.
   void stop();
 
   /// Exchanges changes, and relaxes. Called by the thread, or, where none runs, by the caller. The thread
@@ -57,6 +60,8 @@ class LiveRelaxer {
   void turn();
   /// The same without the relaxation.
   void exchange();
+  /// Shows the bed now, where somebody looks. While the thread runs, only the thread calls it.
+  void show();
   /// The error that ended the thread, if there was one.
   const std::exception_ptr& failure() const { return failure_; }
   /// No change is left to be given.
@@ -68,11 +73,12 @@ class LiveRelaxer {
   void run();
   void give(const SandChange& change);
   void relax();
+  void turn_tool();
   /// The tool asks for a relaxation, or the last one has not brought the sand to rest.
   bool relaxation_is_due() const;
 
   BedReplica replica_;
-  double rate_;  // Hz
+  RelaxationSettings settings_;
   bool by_way_, solid_;
   SandSide tool_;       // as last told; it displaces nothing
   ToolPose pose_;       // the last that was told
@@ -84,6 +90,10 @@ class LiveRelaxer {
   std::vector<SandChange> ungiven_;  // changes that could not be given before the stop
   std::atomic<bool> stopping_ = true;
   std::function<void(const HeightField&)> onlooker_;
+  std::optional<SandAtRest> shown_;  // to the onlooker
+  ToolPose shown_pose_;
+  bool is_news_ = true;  // the bed changed since it was shown
+  bool shown_rests_ = false;
   RelaxationReport report_;
   std::exception_ptr failure_;  // only the thread uses it while it runs
   std::thread thread_;

@@ -39,8 +39,9 @@ const HeightField& checked(const Scene& scene, const HeightField& bed) {
         placement.repeated == RepeatedSamples::keep && placement.smooth == 0.0 && placement.speed == 1.0,
         "stroke.held, stroke.smooth and stroke.speed", "they change a stroke that does not exist yet");
   }
-  // The servo loop and the LiveRelaxer each hold their own bed, and what the other knows of it.
-  check_memory(4.0 * bed.tile_count() * static_cast<double>(HeightField::bytes_per_tile()),
+  // The servo loop and the LiveRelaxer each hold their own bed, and what the other knows of it; pages get a
+  // copy.
+  check_memory(5.0 * bed.tile_count() * static_cast<double>(HeightField::bytes_per_tile()),
                fmt::format("live sand with bed.cells = [{}, {}]", bed.cols(), bed.rows()), "use fewer cells",
                0.5);
   return bed;
@@ -146,7 +147,7 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
       highest_ = std::max(highest_, replica_.bed()(change.row, change.col));
     });
   } else {
-    interaction = sand_.look(replica_.bed(), tip);
+    interaction = sand_.meet(replica_.bed(), tip);
     sand_.lift();
     felt.flags |= deferred_sand;
     ++report_.deferred_ticks;
@@ -173,6 +174,7 @@ LiveSandReport LiveSand::finish() {
     relaxer_thread_.exchange();
     take_relaxed(static_cast<int>(ring_size));
   } while (!relaxer_thread_.all_given());
+  relaxer_thread_.show();
   report_.relaxation = relaxer_thread_.report();
   return report_;
 }

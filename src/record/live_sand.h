@@ -55,7 +55,7 @@ class LiveSand : public FeltWorld {
   /// too large for memory.
   LiveSand(const Scene& scene, const HeightField& bed, const FeltDevice& device);
 
-  /// Shows the relaxing bed to `onlooker`, in the thread that relaxes it. Call it before start().
+  /// Shows the sand to `onlooker` as LiveRelaxer::show_to() does, and a last time in finish().
   void show_to(std::function<void(const HeightField&)> onlooker) {
     relaxer_thread_.show_to(std::move(onlooker));
   }
@@ -63,8 +63,8 @@ class LiveSand : public FeltWorld {
   void start();
   FeltForce feel(double time, const DeviceReading& reading) noexcept override;
   bool touches(const DeviceReading& reading) noexcept override;
-  /// Ends the recording: stops relaxation, and brings both beds together. Throws the error that ended a
-  /// thread, if there was one.
+  /// Ends the recording: stops relaxation, brings both beds together, and shows the sand. Throws the error
+  /// that ended a thread, if there was one.
   LiveSandReport finish();
 
   /// Relaxes once, where start() was not called: for a loop whose time is not the wall's.

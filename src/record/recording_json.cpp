@@ -21,7 +21,8 @@ struct PutField {
   void operator()(const char* name, const StopReason& reason) const { json[name] = stop_reason_text(reason); }
 };
 
-/// Reads fields. A number that is missing, because the file is older than it, keeps its default.
+/// Reads fields. A number, or yes and no, that is missing, because the file is older than it, keeps its
+/// default.
 struct TakeField {
   const Json& json;
 
@@ -32,6 +33,9 @@ struct TakeField {
   template <std::signed_integral Count>
   void operator()(const char* name, Count& count) const {
     if (json.contains(name)) count = json_count<Count>(json.at(name), most_ticks);
+  }
+  void operator()(const char* name, bool& flag) const {
+    if (json.contains(name)) json.at(name).get_to(flag);
   }
   void operator()(const char* name, double& number) const {
     if (!json.contains(name)) return;

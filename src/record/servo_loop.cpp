@@ -52,6 +52,7 @@ ServoLoop::ServoLoop(HapticDevice& device, FeltWorld* world, LoopClock& clock, S
       settings_(settings),
       rate_(settings.rate),
       gives_force_(device.specification().max_force > 0.0),
+      always_flagged_(device.specification().hand_feels ? 0u : std::uint32_t{unfelt_force}),
       force_limit_(world ? std::min(settings.force.max_force, device.specification().max_force) : 0.0),
       guard_(limited(settings.force, force_limit_), settings.rate),
       silent_{to_nanoseconds(settings.silence + device.longest_silence()), StopReason::device_lost, {}},
@@ -192,7 +193,7 @@ void ServoLoop::serve_tick(std::int64_t now) noexcept {
     answers = command(given.force);
     if (!answers) guard_.interlock().close();
     keep(reading, now, given.flags);
-    if (stop_switch_ && stop_switch_->pressed(reading.switches, now)) stop(StopReason::stop_switch);
+    if (stop_switch_ && stop_switch_->pressed(reading.switches, now)) stop(settings_.switch_reason);
   } else {
     ++ticks_.unread;
     guard_.interlock().close();
@@ -220,7 +221,8 @@ bool ServoLoop::read(std::int64_t now, DeviceReading& reading) noexcept {
 FeltForce ServoLoop::feel(std::int64_t now, const DeviceReading& reading) noexcept {
   if (!world_) return {};
   const FeltForce wanted = world_->feel(to_seconds(now - start_), reading);
-  const FeltForce given = guard_.admit(to_seconds(now - awake_), wanted, held_);
+  FeltForce given = guard_.admit(to_seconds(now - awake_), wanted, held_);
+  given.flags |= always_flagged_;
   stop_where_it_lasts((given.flags & refused_force) != 0, wrong_, now);
   return given;
 }

@@ -20,6 +20,7 @@ struct ServoSettings {
   std::optional<double> duration;  ///< s: round(duration x rate) ticks elapse
   ForceLimits force;
   StartSettings start;
+  StopReason switch_reason = StopReason::stop_switch;  ///< what pressing it means
   std::optional<int> stop_switch;  ///< the switch (from 0, to 31) that ends the recording when it is pressed
   double debounce = 0.02;          ///< s that a switch must be down to count, after it was up once
   /// s that the device may give no reading (or take no force), or the world no number, before the loop stops
@@ -105,6 +106,7 @@ class ServoLoop {
   ServoSettings settings_;
   double rate_;
   bool gives_force_;
+  std::uint32_t always_flagged_;  // SampleFlag
   double force_limit_;
   ForceGuard guard_;
   std::optional<SwitchPress> stop_switch_;

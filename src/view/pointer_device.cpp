@@ -35,6 +35,8 @@ PointerDevice::PointerDevice(const Scene& scene, const HeightField& start, LoopC
   specification_.model = "pointer (60 to 120 Hz, replayed 40 ms later)";
   specification_.manufacturer = "sandstroke";
   specification_.frame = "bed";
+  specification_.max_force = any_force;  // to be shown, and recorded as what a device would give
+  specification_.hand_feels = false;
   placement_ =
       point_placement(scene.stroke ? scene.stroke->placement : StrokePlacement{}, specification_.frame);
 }

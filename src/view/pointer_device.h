@@ -65,7 +65,7 @@ class PointerDevice : public HapticDevice, public PointerSink {
   /// A pointer may come at any time.
   double longest_silence() const override { return 1e9; }
   bool read(double time, DeviceReading& reading) noexcept override;
-  bool command(const Eigen::Vector3d&) noexcept override { return false; }
+  bool command(const Eigen::Vector3d&) noexcept override { return true; }
   void release() noexcept override {}
   void close() noexcept override {}
 

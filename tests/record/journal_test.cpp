@@ -130,8 +130,10 @@ TEST(RecordingJson, ANumberThatIsNoneIsNullAndReadsAsNone) {
 TEST(RecordingJson, FieldsThatAnEarlierVersionLeftOutHaveDefaults) {
   nlohmann::ordered_json header = as_json(full_header()), footer = as_json(full_footer());
   header.erase("device_max_damping");
+  header.erase("device_hand_feels");
   footer.erase("ticks_interlocked");
   EXPECT_EQ(header_from_json(header).device.max_damping, 0.0);
+  EXPECT_TRUE(header_from_json(header).device.hand_feels);
   EXPECT_EQ(header_from_json(header).device.max_stiffness, full_header().device.max_stiffness);
   EXPECT_EQ(footer_from_json(footer).ticks.interlocked, 0);
   EXPECT_EQ(footer_from_json(footer).ticks.deferred, full_footer().ticks.deferred);

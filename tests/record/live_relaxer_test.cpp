@@ -27,15 +27,20 @@ TEST(LiveRelaxer, TakesDisplacedSandBetweenRareRelaxationsAndEndsWhenAsked) {
   }
 }
 
-/// A bed with a heap where a solid tool stands, and relaxes as often as the tool goes its way.
-TEST(LiveRelaxer, RelaxesNothingUnderASolidToolUntilItHasGone) {
-  const ToolSettings tool{.radius = 0.03, .profile = ToolProfile::sphere, .solid = true};
+const ToolSettings solid_sphere{.radius = 0.03, .profile = ToolProfile::sphere, .solid = true};
+/// Relaxation each time a tool has gone a third of its radius: of 30 mm, a cell.
+RelaxationSettings by_way() {
   RelaxationSettings settings;
   settings.rate = 0.0;
-  settings.way = 1.0 / 3.0;  // of 30 mm: a cell
+  settings.way = 1.0 / 3.0;
+  return settings;
+}
+
+/// A bed with a heap where a solid tool stands, and relaxes as often as the tool goes its way.
+TEST(LiveRelaxer, RelaxesNothingUnderASolidToolUntilItHasGone) {
   SandRing displaced(64), relaxed(64);
   PoseRing poses(8);
-  LiveRelaxer live_relaxer(HeightField(41, 41, 0.01), tool, settings, displaced, poses, relaxed);
+  LiveRelaxer live_relaxer(HeightField(41, 41, 0.01), solid_sphere, by_way(), displaced, poses, relaxed);
   displaced.push({20, 20, 0.05});
   poses.push({{0.0, 0.0, -0.01}, true});
   live_relaxer.turn();
@@ -63,15 +68,11 @@ class CountingRelaxer : public Relaxer {
 };
 
 TEST(LiveRelaxer, RelaxesInItsThreadAsOftenAsTheToolHasGoneItsWay) {
-  RelaxationSettings settings;
-  settings.rate = 0.0;
-  settings.way = 1.0 / 3.0;  // of 30 mm: a cell
   SandRing displaced(64), relaxed(64);
   PoseRing poses(8);
   std::atomic<int> relaxations = 0;
-  LiveRelaxer live_relaxer(HeightField(41, 41, 0.01),
-                           {.radius = 0.03, .profile = ToolProfile::sphere, .solid = true}, settings,
-                           displaced, poses, relaxed, std::make_unique<CountingRelaxer>(relaxations));
+  LiveRelaxer live_relaxer(HeightField(41, 41, 0.01), solid_sphere, by_way(), displaced, poses, relaxed,
+                           std::make_unique<CountingRelaxer>(relaxations));
   const auto go_to = [&](double x, bool contact) {
     poses.push({{x, 0.0, contact ? -0.01 : 0.1}, contact});
     while (poses.size() > 0) std::this_thread::yield();
@@ -89,6 +90,43 @@ TEST(LiveRelaxer, RelaxesInItsThreadAsOftenAsTheToolHasGoneItsWay) {
   while (relaxations < 5) std::this_thread::yield();
   live_relaxer.stop();
   EXPECT_EQ(relaxations, 5);
+}
+
+/// A tool that stays where sand relaxed last: what it pushes out from then on waits for it to go on.
+TEST(LiveRelaxer, ShowsSandAtRestWhileItsOwnWaitsForTheTool) {
+  SandRing displaced(64), relaxed(64);
+  PoseRing poses(8);
+  std::atomic<int> looks = 0;
+  std::atomic<double> highest = 0.0, volume = 0.0;
+  LiveRelaxer live_relaxer(HeightField(41, 41, 0.01), solid_sphere, by_way(), displaced, poses, relaxed);
+  const HeightField* shown = nullptr;
+  live_relaxer.show_to([&](const HeightField& bed) {
+    if (shown) {
+      EXPECT_EQ(&bed, shown);
+    }
+    shown = &bed;
+    highest = bed.highest();
+    volume = bed.volume();
+    ++looks;
+  });
+  poses.push({{0.0, 0.0, -0.01}, true});
+  live_relaxer.start();
+  while (looks < 1) std::this_thread::yield();
+  displaced.push({20, 30, 0.05});
+  while (volume == 0.0) std::this_thread::yield();
+  live_relaxer.stop();
+  live_relaxer.show();  // as a recording ends
+  const int pictures = looks;
+  live_relaxer.show();
+  poses.push({{1e-6, 0.0, -0.01}, true});  // the hand trembles
+  live_relaxer.exchange();
+  live_relaxer.show();
+  EXPECT_EQ(looks, pictures) << "nothing has changed";
+  EXPECT_EQ(live_relaxer.report().relaxations, 1);
+  EXPECT_EQ(live_relaxer.bed()(20, 30), 0.05);
+  EXPECT_EQ(relaxed.size(), 0u);
+  EXPECT_LT(highest, 0.02);
+  EXPECT_NEAR(volume, 0.05 * 1e-4, 1e-15);
 }
 
 /// A relaxer on a machine without memory left.
@@ -144,19 +182,16 @@ TEST(LiveRelaxer, RelaxesWhatWasDisplaced) {
 }
 
 TEST(LiveRelaxer, SandThatAsksByWayAndHasFarToGoGoesOnWithoutTheToolsMoving) {
-  RelaxationSettings settings;
-  settings.rate = 0.0;
-  settings.way = 1.0 / 3.0;  // of 30 mm: a cell
   SandRing displaced(8), relaxed(std::size_t{1} << 18);
   PoseRing poses(8);
   HeightField heap(61, 61, 0.01);
   for (int row = 25; row < 36; ++row)
     for (int col = 25; col < 36; ++col) heap.set(row, col, 0.3);
   poses.push({{0.2, 0.2, -0.01}, true});  // it touches down beside the heap, and rests
-  LiveRelaxer live_relaxer(heap, {.radius = 0.01, .profile = ToolProfile::sphere}, settings, displaced, poses,
+  LiveRelaxer live_relaxer(heap, {.radius = 0.01, .profile = ToolProfile::sphere}, by_way(), displaced, poses,
                            relaxed);
   live_relaxer.start();
-  RelaxationSettings looser = settings;  // changes add up to the live_relaxer's own heights but for rounding
+  RelaxationSettings looser = by_way();  // changes add up to the live_relaxer's own heights but for rounding
   looser.tolerance *= 2.0;
   const auto rests = [&] {
     HeightField copy = heap;

@@ -200,7 +200,8 @@ TEST(LiveSand, TurnsTheToolWithTheHandAsARunDoes) {
   EXPECT_LT((live - ran).abs().maxCoeff(), 1e-12);
   EXPECT_GT(ran.abs().sum() * 4e-6, 1e-6) << "m^3: a quarter of a disc";
   for (std::size_t k = 202; k < times.size(); ++k)  // since it turns
-    EXPECT_NEAR(forces[k - 1], run.ticks[k].device_force.z(), 1e-6) << times[k];
+    EXPECT_NEAR(forces[k - 1], run.ticks[k].device_force.z(), 0.04 * forces[k - 1])
+        << times[k] << ": it covers its cells a tick late";
   EXPECT_GT(forces.back(), 1.0);
   // Nothing turns with a device that does not measure how it is turned.
   LiveSand straight(scene, starting_bed(scene.bed), {"bed"});
@@ -237,7 +238,8 @@ TEST(LiveSand, TakesNoMemoryInTheLoopAndTurnsItsRelaxationWithATool) {
 }
 
 /// m/s, how fast a device still moves, at most, that a hand has pressed into the sand, drawn back a little,
-/// and holds there; its force acts a tick late.
+/// and holds there for two seconds, in which little but the hand's own damper takes energy; its force acts a
+/// tick late.
 double shaking(const Scene& scene) {
   DeviceSettings device = scene.device;
   device.model = DeviceModel::dynamic;
@@ -252,11 +254,11 @@ double shaking(const Scene& scene) {
                                   Eigen::Vector3d(0.0, 0.0, speed)};
   };
   double fastest = 0.0;
-  for (const double t : even_times(1.5)) {
+  for (const double t : even_times(3.0)) {
     acts = late;
     late = sand.feel(t, {held.state().position}).force;
     held.advance(hand(t), hand(t + 1e-3), acts);
-    if (t > 1.2) fastest = std::max(fastest, held.state().velocity.norm());
+    if (t > 2.5) fastest = std::max(fastest, held.state().velocity.norm());
   }
   return fastest;
 }

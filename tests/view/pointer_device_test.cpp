@@ -88,7 +88,8 @@ TEST(PointerDevice, SaysHonestlyWhatItIs) {
   EXPECT_TRUE(said.model.starts_with("pointer"));
   EXPECT_NE(said.model.find("60 to 120 Hz"), std::string::npos);
   EXPECT_NE(said.model.find(std::to_string(PointerDevice::latency / ms) + " ms"), std::string::npos);
-  EXPECT_EQ(said.max_force, 0.0);
+  EXPECT_EQ(said.max_force, any_force);
+  EXPECT_FALSE(said.hand_feels);
   EXPECT_FALSE(said.measures_velocity);
   EXPECT_FALSE(hand.device.duration());
   EXPECT_EQ(hand.device.scale().radius, radius);

@@ -27,10 +27,15 @@ function pointerBytes(samples) {
   return bytes;
 }
 
-/** A table of names with numbers that change: set(values). */
+/** A table of names with numbers that change: set(values). [name, meaning]: the meaning shows under the pointer. */
 function numberTable(names) {
-  const cells = names.map(() => el("dd", {}, "–"));
-  return { element: el("dl", {}, ...names.flatMap((name, i) => [el("dt", {}, name), cells[i]])),
+  const cells = names.map(() => el("dd", {}, "–")), terms = names.map(([name, title]) => el("dt", { title }, name));
+  return { element: el("dl", {}, ...terms.flatMap((term, i) => [term, cells[i]])),
+           rename: (from, name, title) => {
+             const term = terms.find(({ textContent }) => textContent === from);
+             term.textContent = name;
+             term.title = title;
+           },
            set: (values) => values.forEach((value, i) => { cells[i].textContent = value; }) };
 }
 
@@ -47,7 +52,8 @@ function switchButton(text, pressed, act) {
 
 /**
  * The pointer as a hand. While it draws, events with the main button press the tool into the sand: to the chosen depth
- * with mouse or finger, and to twice a pen's pressure times that depth.
+ * with mouse or finger, and to twice a pen's pressure times that depth. While a pen is near, fingers are a palm: they do
+ * nothing, and one that was down first lets go.
  */
 function pointerHand(view, send, depthChanged) {
   const sampleOf = (event, pressed) => {
@@ -56,15 +62,18 @@ function pointerHand(view, send, depthChanged) {
     const pressure = pressed ? live.depth * (event.pointerType === "pen" ? 2 * event.pressure : 1) : 0;
     return { time: event.timeStamp, x: position[0], y: position[1], pressure: Math.min(pressure, 1), switches: event.buttons };
   };
-  let pressed = null, last = null;  // pressed: the id of the pointer that is down
+  let pressed = null, last = null, penIsNear = false;  // pressed: the down event of the pointer that draws
   const tell = (samples) => {
     if (samples.length) send(pointerBytes(samples));
   };
-  const lift = () => {
+  const lift = (time = performance.now()) => {
     pressed = null;
-    if (last) tell([{ ...last, time: performance.now(), pressure: 0 }]);
+    if (last) tell([{ ...last, time, pressure: 0, switches: 0 }]);
   };
   const hand = (event) => {
+    if (event.pointerType === "pen") penIsNear = event.type !== "pointerleave";
+    if (penIsNear && pressed?.pointerType === "touch") lift(event.timeStamp);
+    if (penIsNear && event.pointerType === "touch") return true;  // the palm neither draws nor turns
     if (!live.draws || live.ended) return false;
     if (event.type === "wheel") {
       if (pressed === null) return false;
@@ -72,9 +81,13 @@ function pointerHand(view, send, depthChanged) {
       depthChanged();
       return true;
     }
-    if (pressed !== null && event.pointerId !== pressed) return true;  // one hand holds one tool
-    if (event.type === "pointerdown") pressed = event.pointerId;
-    if (["pointerup", "pointercancel"].includes(event.type)) pressed = null;
+    if (pressed !== null && event.pointerId !== pressed.pointerId) return true;  // one hand holds one tool
+    if (event.type === "pointerdown") pressed = event;
+    if (event.type === "pointercancel") {  // it may say no position
+      lift(event.timeStamp);
+      return true;
+    }
+    if (!(event.buttons & 1)) pressed = null;  // also where the page did not see it let go, or another button holds on
     const events = event.type === "pointermove" ? event.getCoalescedEvents?.() ?? [] : [];
     const samples = (events.length ? events : [event]).map((one) => sampleOf(one, pressed !== null)).filter(Boolean);
     last = samples.at(-1) ?? last;
@@ -93,7 +106,12 @@ function pointerHand(view, send, depthChanged) {
 
 function drawLive(main) {
   const said = el("p", { class: "said", role: "status" }), title = el("h1", {}, document.title);
-  const numbers = numberTable(["time", "depth", "force", "rate", "lateness", "largest lateness"]);
+  const numbers = numberTable([
+    ["time", "since the beginning"], ["depth", "of the tool's tip below the sand around it"],
+    ["force", "of the sand on the hand; the arrow shows it"],
+    ["loop", "how often a second the device is read; 1000 Hz is usual"],
+    ["late by", "how long after its time the last reading came"],
+    ["latest", "how late the latest reading of all came"]]);
   const tools = el("div", { class: "corner tools" });
   const frame = el("div", { class: "sand" });
   const help = el("p", {}, viewHelp, " F follows the tool.");
@@ -133,6 +151,7 @@ function drawLive(main) {
     };
     if (!pointer) return;
     live.draws = true;
+    numbers.rename("force", "force (not felt)", "a device would give this force to the hand; a pointer gives none");
     const depth = el("input", { type: "range", min: 0.05, max: 1, step: 0.01, value: live.depth,
                                 "aria-label": "depth of the tool",
                                 input: (event) => { live.depth = Number(event.target.value); } });
@@ -146,8 +165,9 @@ function drawLive(main) {
                                          () => { depth.value = live.depth; });
     tools.append(el("br"), draw, el("label", {}, "Depth", depth),
                  el("button", { type: "button", class: "finish", click: finish }, "Finish"));
-    help.prepend("Press and drag to draw in the sand; the wheel then sets the depth. Drag with the right button to " +
-                 "turn the view. D turns drawing off and on; while it is off, the main button turns the view, too. ");
+    help.prepend("Press and drag to draw in the sand; the wheel then sets the depth. A pen goes there at half its " +
+                 "pressure, and deeper with more. Drag with the right button to turn the view. D turns drawing off " +
+                 "and on; while it is off, the main button turns the view, too. ");
     view.drawing = hand;
     view.canvas.addEventListener("keydown", (event) => {
       if (event.key.toLowerCase() === "d") draw.click();
