@@ -206,6 +206,16 @@ void Browser::open_text(const std::string& page) {
   open(folder_ / "page.html");
 }
 
+void Browser::resize(int width, int height) {
+  call("Emulation.setDeviceMetricsOverride",
+       {{"width", width}, {"height", height}, {"deviceScaleFactor", 1}, {"mobile", false}});
+}
+
+void Browser::prefer(const std::string& scheme) {
+  const Json feature = {{"name", "prefers-color-scheme"}, {"value", scheme}};
+  call("Emulation.setEmulatedMedia", {{"features", Json::array({feature})}});
+}
+
 std::string Browser::screenshot() {
   const std::string text = call("Page.captureScreenshot", {{"format", "png"}})["data"];
   std::string bytes;

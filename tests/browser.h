@@ -34,6 +34,12 @@ class Browser {
   /// The same for a page that a server has.
   void open_address(const std::string& address);
 
+  /// Gives the window another size, until another page is opened [CSS pixels].
+  void resize(int width, int height);
+
+  /// Says that the reader prefers "light" or "dark" pages, until another page is opened.
+  void prefer(const std::string& scheme);
+
   /// The window's picture, as a PNG file's bytes.
   std::string screenshot();
 
@@ -81,6 +87,18 @@ class Browser {
   std::vector<std::string> errors_;
 };
 
+/// A page as Chromium made it.
+struct OpenedPage {
+  std::string dom;                   ///< the document once it was drawn
+  std::vector<std::string> console;  ///< Browser::errors()
+  nlohmann::ordered_json answer;     ///< of the probe
+};
+
+/// A probe: [ready, charts, errors] as a page says itself.
+inline const std::string page_state =
+    "[document.documentElement.dataset.ready, Number(document.documentElement.dataset.charts),"
+    " Number(document.documentElement.dataset.errors)]";
+
 /// Tests that use pages: skipped where Chromium is not installed, but not in CI. One browser for all of them.
 class BrowserTest : public ChromiumTest {
  protected:
@@ -88,6 +106,15 @@ class BrowserTest : public ChromiumTest {
   static Browser& browser() {
     if (!browser_) browser_ = std::make_unique<Browser>();
     return *browser_;
+  }
+  /// Opens the text of a page, and evaluates a JavaScript expression, the probe, in it.
+  static OpenedPage open_page(const std::string& page, const std::string& probe = "null") {
+    browser().open_text(page);
+    OpenedPage opened;
+    opened.answer = browser().evaluate(probe);
+    opened.dom = browser().evaluate("document.documentElement.outerHTML");
+    opened.console = browser().errors();
+    return opened;
   }
 
  private:

@@ -42,6 +42,17 @@ int Comparison::failures() const {
       std::count_if(checks.begin(), checks.end(), [](const Check& c) { return !c.passed; }));
 }
 
+double Comparison::worst() const {
+  double worst = 0.0;
+  for (const Check& check : checks) {
+    if (!check.unit.empty() && check.limit > 0.0 && check.measured >= 0.0)
+      worst = std::max(worst, check.measured / check.limit);
+    else if (!check.passed)
+      worst = std::numeric_limits<double>::infinity();
+  }
+  return worst;
+}
+
 double Comparison::seconds() const {
   return std::accumulate(checks.begin(), checks.end(), 0.0,
                          [](double sum, const Check& check) { return sum + check.seconds; });
@@ -66,6 +77,7 @@ std::string check_table(const Comparison& comparison) {
   }
   for (const Check& check : comparison.checks)
     if (!check.passed) table += fmt::format("{}: {}\n", check.name, check.sentence);
+  if (!comparison.settings.empty()) table += fmt::format("settings that differ: {}\n", comparison.settings);
   return table;
 }
 
@@ -93,7 +105,8 @@ nlohmann::json to_json(const Comparison& comparison) {
   return {{"name", comparison.name},
           {"passed", comparison.passed()},
           {"checks", std::move(checks)},
-          {"tolerances", std::move(tolerances)}};
+          {"tolerances", std::move(tolerances)},
+          {"settings", comparison.settings}};
 }
 
 }  // namespace sandstroke

@@ -35,21 +35,26 @@ struct Comparison {
   std::string name;
   std::vector<Check> checks;
   std::vector<UsedTolerance> tolerances = {};  ///< that the checks used
+  std::string settings = {};                   ///< of the scenes that differ (scene_difference()); no check
 
   /// True where all checks pass and there is at least one: comparing nothing is not a success.
   bool passed() const;
   int failures() const;
+  /// The largest of its measures over their limits, among those with a unit; infinity where another check
+  /// failed.
+  double worst() const;
   double seconds() const;  ///< of all checks
 };
 
-/// One aligned line per check (name, measured, limit, ok or FAILED), then the sentences of those that failed.
+/// One aligned line per check (name, measured, limit, ok or FAILED), then the sentences of those that failed,
+/// and the settings that differ.
 std::string check_table(const Comparison& comparison);
 
 /// "same within the tolerances", or "differs: " and the names of the checks that failed.
 std::string verdict(const Comparison& comparison);
 
 /// {"name", "passed", "checks": [{"name", "passed", "measured", "limit", "unit", "sentence"}],
-/// "tolerances": [{"name", "value", "unit", "source"}]}; NaN becomes null.
+/// "tolerances": [{"name", "value", "unit", "source"}], "settings"}; NaN becomes null.
 nlohmann::json to_json(const Comparison& comparison);
 
 }  // namespace sandstroke

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "compare/scene_difference.h"
+#include "core/error.h"
+
 namespace sandstroke {
 namespace {
 
@@ -73,6 +76,8 @@ Comparison compare_runs(const RunFile& golden, const RunFile& run, const Toleran
   add_checks(checks, "frames", [&] { return std::vector{frames_check(golden, run)}; });
   add_checks(checks, "trace",
              [&] { return trace_checks(whole_trace(golden), whole_trace(run), tolerances); });
+  comparison.settings =
+      as_far_as_known([&] { return scene_difference(golden.scene_text(), run.scene_text()); });
   return comparison;
 }
 

@@ -39,7 +39,8 @@ Comparison check_golden(const std::string& name, const GoldenFolders& folders, c
 
 /// Runs one scene and makes the result its golden entry. Returns false, and changes nothing, where the run
 /// was interrupted. Error: input where there is no such scene; unstable where the sand is not at rest, or the
-/// device swings.
-bool update_golden(const std::string& name, const GoldenFolders& folders, const SceneRunner& runner);
+/// device swings, unless that is allowed (doubtful).
+bool update_golden(const std::string& name, const GoldenFolders& folders, const SceneRunner& runner,
+                   bool doubtful = false);
 
 }  // namespace sandstroke

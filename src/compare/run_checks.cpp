@@ -28,7 +28,8 @@ Check column_check(const std::string& name, const ColumnDifference& difference, 
                      difference.max == 0.0 ? "the same in every tick"
                      : std::isnan(difference.max)
                          ? fmt::format("not a number {}", where)
-                         : fmt::format("differs by {:.6g} {} {}", difference.max, unit, where));
+                         : fmt::format("differs by {:.6g} {} {}; first differs at {:.9g} s", difference.max,
+                                       unit, where, difference.first));
 }
 
 /// Checks that all positions are numbers. It does not compare them: the forces that follow from them are.

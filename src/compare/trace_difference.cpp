@@ -21,6 +21,7 @@ TraceDifference trace_difference(const std::vector<TickRecord>& golden, const st
     for (std::size_t tick = 0; tick < ticks && !std::isnan(result.max); ++tick) {
       const double d = distance(golden[tick], run[tick]);
       if (d <= result.max) continue;
+      if (result.max == 0.0) result.first = golden[tick].time;
       result.max = d;
       result.tick = tick;
     }

@@ -9,6 +9,7 @@ struct ColumnDifference {
   double max = 0.0;  ///< largest |difference| (of a vector: its length); NaN where a value is not a number
   std::size_t tick = 0;  ///< where it is; the first that is not a number, if any. An index into the trace.
   double time = 0.0;     ///< s, of that tick in the golden trace
+  double first = 0.0;    ///< s, of the first tick that differs at all
 };
 
 /// The largest values of a trace.

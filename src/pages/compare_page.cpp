@@ -46,6 +46,7 @@ PageOfParts start_page(const std::string& title, const Comparison& comparison, J
            {"passed", comparison.passed()},
            {"checks", compared["checks"]},
            {"tolerances", compared["tolerances"]},
+           {"settings", compared["settings"]},
            {"golden", std::move(golden)},
            {"run", std::move(run)},
            {"parts", Json::array()},

@@ -47,10 +47,12 @@ std::vector<Quantity> quantities(const Tolerances& tolerances) {
                          [axis](const TickRecord& tick) { return tick.device_force[axis]; }));
     all.back().recorded = [axis](const TickRecord& tick) { return tick.recorded_force[axis]; };
   }
-  all.push_back(number("Tool in the sand", "depth", "m", tolerances.depth,
-                       [](const TickRecord& tick) { return tick.depth; }));
-  all.push_back(number("Tool in the sand", "sand level", "m", tolerances.depth,
-                       [](const TickRecord& tick) { return tick.level; }));
+  // In the air, a hand's height would squash the depths of a few millimetres that count.
+  all.push_back(number("Tool in the sand", "depth", "mm", 1e3 * tolerances.depth,
+                       [](const TickRecord& tick) { return 1e3 * tick.depth; }));
+  all.back().value = [](const TickRecord& tick) { return 1e3 * (tick.depth < 0.0 ? 0.0 : tick.depth); };
+  all.push_back(number("Tool in the sand", "sand level", "mm", 1e3 * tolerances.depth,
+                       [](const TickRecord& tick) { return 1e3 * tick.level; }));
   return all;
 }
 

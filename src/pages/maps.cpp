@@ -172,7 +172,8 @@ Json surfaces_part(const ComparedSurfaces& s) {
       "Largest {:.4g} m at x = {:.4g} m, y = {:.4g} m (row {}, col {}), limit {:.4g} m; RMS {:.4g} m; volume "
       "{:+.4g} m³.",
       whole.max, whole.x, whole.y, whole.row, whole.col, s.limit, whole.rms, whole.volume);
-  if (spots.side > 1)
+  if (whole.max == 0.0) text = "There is no difference: all cells are the same.";
+  if (spots.side > 1 && whole.max != 0.0)
     text +=
         fmt::format(" Each spot of {0} x {0} cells has the colour of its largest difference.", spots.side);
   maps.push_back(map_json("difference",
@@ -188,6 +189,20 @@ Json surfaces_part(const ComparedSurfaces& s) {
                         whole.col >= shown.col_begin && whole.col < shown.col_end;
   if (whole.max != 0.0 && in_sight) part["largest"] = {{"x", whole.x}, {"y", whole.y}};
   return part;
+}
+
+Json error_map_part(const HeightField& errors) {
+  const HeightField none(errors.rows(), errors.cols(), errors.cell_size());
+  const CellRange shown =
+      framed_cells(differing_cells(none, errors, 0.0), errors.rows(), errors.cols(), errors.cell_size(), 0.0);
+  const HeightGrid values = block(errors, shown).abs();
+  const ValueRange range = value_range(0.0, finite_range(values).high, ColourScale::sequential);
+  return {{"kind", "maps"},
+          {"title", "Where the heights are uncertain"},
+          {"text", "The estimated error of each cell's height (run --error-map)."},
+          {"maps",
+           {map_json("error", height_map(values, range, ColourScale::sequential),
+                     height_scale("error", range, ColourScale::sequential))}}};
 }
 
 Json picture_part(const Image& picture, const std::string& name) {
@@ -211,12 +226,14 @@ Json pictures_part(const std::string& title, const Image& golden, const Image& r
   const ImageDifference whole = image_difference(golden, run);
   const int span = std::max({whole.max, limit, 1});
   const ValueRange range{-static_cast<double>(span), static_cast<double>(span)};
-  maps.push_back(
-      map_json("difference", picture_difference_map(golden, run, span),
-               scale_json("difference", range, "of 255", 1.0, ColourScale::diverging),
-               fmt::format("Largest {} of 255 at pixel x = {}, y = {}, limit {}; {:.4g} % of the pixels "
-                           "differ. Each pixel has the colour of its channel that differs most.",
-                           whole.max, whole.x, whole.y, limit, 100.0 * whole.fraction)));
+  maps.push_back(map_json(
+      "difference", picture_difference_map(golden, run, span),
+      scale_json("difference", range, "of 255", 1.0, ColourScale::diverging),
+      whole.max == 0
+          ? std::string("There is no difference: all pixels are the same.")
+          : fmt::format("Largest {} of 255 at pixel x = {}, y = {}, limit {}; {:.4g} % of the pixels "
+                        "differ. Each pixel has the colour of its channel that differs most.",
+                        whole.max, whole.x, whole.y, limit, 100.0 * whole.fraction)));
   part["extent"] = {{"x", {0, golden.width}}, {"y", {golden.height, 0}}};
   if (whole.max > 0) part["largest"] = {{"x", whole.x + 0.5}, {"y", whole.y + 0.5}};
   return part;

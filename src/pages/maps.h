@@ -30,6 +30,9 @@ CellRange shown_cells(const ComparedSurfaces& surfaces);
 /// difference, also as a number.
 nlohmann::ordered_json surfaces_part(const ComparedSurfaces& surfaces);
 
+/// A part with the estimated error [m] of each cell's height, where it is not 0, with a margin.
+nlohmann::ordered_json error_map_part(const HeightField& errors);
+
 /// A part with one picture. name: what it shows, such as "final surface".
 nlohmann::ordered_json picture_part(const Image& picture, const std::string& name);
 

@@ -1,6 +1,7 @@
 #include "pages/page_of_parts.h"
 
 #include "core/asset.h"
+#include "core/error.h"
 #include "report/page.h"
 
 SANDSTROKE_DECLARE_ASSET(maps);

@@ -5,8 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include "core/error.h"
-
 namespace sandstroke {
 
 /// A page on one run or two: a head and parts. Its data has at least the lists `parts` and `missing`.
@@ -20,16 +18,5 @@ struct PageOfParts {
   void add_part(const std::string& name, const std::function<nlohmann::ordered_json()>& make);
   std::string html() const;
 };
-
-/// The result of `make`, or an empty one where the file does not hold it (Error: input).
-template <class Make>
-auto as_far_as_known(const Make& make) -> decltype(make()) {
-  try {
-    return make();
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::input) throw;
-    return {};
-  }
-}
 
 }  // namespace sandstroke

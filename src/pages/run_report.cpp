@@ -8,6 +8,7 @@
 
 #include "compare/trace_difference.h"
 #include "core/asset.h"
+#include "core/error.h"
 #include "pages/curves.h"
 #include "pages/maps.h"
 #include "pages/profiles.h"
@@ -49,8 +50,8 @@ Json error_part(const std::optional<ErrorEstimate>& error) {
     text = error->at_rest ? "The estimated difference from a run with infinitely small steps."
                           : "The sand was not at rest, so this estimate says little.";
     add_figure(figures, "Part of the changed sand that lies elsewhere", 100.0 * error->height_share, "%");
-    add_figure(figures, "Height, root mean square over the changed cells", error->height_rms, "m");
-    add_figure(figures, "Height, largest", error->height_max, "m");
+    add_figure(figures, "Height, root mean square over the changed cells", 1e3 * error->height_rms, "mm");
+    add_figure(figures, "Height, largest", 1e3 * error->height_max, "mm");
     add_figure(figures, "Force, root mean square", error->force_rms, "N");
     add_figure(figures, "Force, largest", error->force_max, "N");
   }
@@ -125,6 +126,10 @@ PageOfParts run_report(const RunFile& run, const std::function<Image(const LastS
   page.add_part("The sand in 3-D", [&] { return sand_part(run, last); });
   add_stroke(page, run, last);
   page.data["parts"].push_back(error_part(error));
+  page.add_part("The error's map", [&]() -> Json {
+    const std::optional<HeightField> map = run.error_map();
+    return map ? error_map_part(*map) : Json();
+  });
   return page;
 }
 

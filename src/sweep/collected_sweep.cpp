@@ -1,6 +1,7 @@
 #include "sweep/collected_sweep.h"
 
 #include <cmath>
+#include <map>
 
 #include "core/counted.h"
 #include "core/error.h"
@@ -14,10 +15,14 @@ void read_surfaces(CollectedSweep& sweep, CollectReport& report) {
   std::string first_missing;
   const KeptSurface* first = nullptr;
   bool alike = true;
+  std::map<std::filesystem::path, KeptSurface> known;  // points may share one
   for (std::size_t point = 0; point < sweep.results.size(); ++point) {
     if (!sweep.results[point] || failed(sweep.results[point]->verdict)) continue;
     try {
-      sweep.surfaces[point] = inspect_surface(sweep.folder.point_file(point));
+      const std::filesystem::path file = sweep.folder.surface_file(point);
+      auto at = known.find(file);
+      if (at == known.end()) at = known.emplace(file, inspect_surface(file)).first;
+      sweep.surfaces[point] = at->second;
     } catch (const Error& failure) {
       if (is_of_the_machine(failure)) throw;
       if (report.surfaces_missing++ == 0) first_missing = failure.what();

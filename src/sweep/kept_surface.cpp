@@ -26,7 +26,7 @@ BedGeometry geometry(const Hdf5Reader& file) { return file.bed_geometry(surface,
 
 KeptSurface inspect_surface(const std::filesystem::path& point_file) {
   const Hdf5Reader file(point_file);
-  KeptSurface kept{geometry(file), 0.0, ""};
+  KeptSurface kept{geometry(file), 0.0, "", point_file};
   const double level = file.fill_value(surface), cell_size = kept.bed.cell_size();
   if (std::isfinite(level)) kept.highest = std::abs(level);
   ContentHash hash;

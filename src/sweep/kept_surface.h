@@ -12,6 +12,7 @@ struct KeptSurface {
   double highest = 0.0;  ///< m, largest finite |height|
   std::string
       hash;  ///< of shape, cell size and heights; the same whether parts at the level were written or not
+  std::filesystem::path file;  ///< that holds it
 };
 
 /// Reads /surface of a point's file. Error: io, input, if it is missing or cannot be read.

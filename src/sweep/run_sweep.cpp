@@ -172,7 +172,7 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
                       ChangePainter& painter, const std::function<void(const PointResult&)>& written) {
   const std::size_t metrics = folder.metrics().size();
   const auto write = [&](std::size_t point, const PointResult& result, const std::string& scene,
-                         const HeightField* surface) {
+                         const SweepFolder::Surface& surface) {
     {
       const std::scoped_lock lock(inputs_.files());
       folder.write(point, result, scene, surface);
@@ -183,7 +183,7 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
   const auto refuse = [&](const std::string& reason) {
     for (std::size_t i = 0; i < points.size(); ++i)
       write(points[i], failed_point(PointVerdict::refused, reason, metrics),
-            i < scenes.size() ? scene_text(scenes[i]) : "", nullptr);
+            i < scenes.size() ? scene_text(scenes[i]) : "", {});
     return false;
   };
   if (const auto refused = refused_.find(points.front()); refused != refused_.end())
@@ -219,6 +219,7 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
 
   std::optional<Image> picture;
   std::string pictured_view;
+  SweepFolder::Surface kept{plan_.keep_surface ? &result->surface : nullptr};
   for (std::size_t i = 0; i < points.size() && (i == 0 || !interrupted()); ++i) {
     const bool surface = !failed(result->points[i].verdict);
     if (surface && plan_.keep_picture) {
@@ -229,8 +230,8 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
       }
       write_png(folder.picture_file(points[i]), *picture);
     }
-    write(points[i], result->points[i], scene_text(scenes[i]),
-          surface && plan_.keep_surface ? &result->surface : nullptr);
+    write(points[i], result->points[i], scene_text(scenes[i]), surface ? kept : SweepFolder::Surface{});
+    if (surface && plan_.keep_surface && !kept.same_as) kept.same_as = points[i];
   }
   return true;
 }
@@ -308,13 +309,26 @@ Sweep::Estimate Sweep::estimate() {
     measured = (measured + 1) % groups_.size();
   ChangePainter painter;
   const Stopwatch watch;
-  run_group(folder, {groups_[measured].front()}, painter, [](const PointResult&) {});
+  // Two points, if they share a simulation: the second keeps no surface of its own. They do not share the
+  // second solution of an error estimate, whose time counts for each point.
+  const PointGroup& group = groups_[measured];
+  const PointGroup run(group.begin(),
+                       group.begin() + std::min<std::ptrdiff_t>(plan_.second ? 1 : 2, std::ssize(group)));
+  run_group(folder, run, painter, [](const PointResult&) {});
   Estimate estimate;
   // Points do not share second solutions.
   estimate.seconds =
       watch.seconds() * static_cast<double>(plan_.second ? plan_.design.points() : simulations());
-  for (const auto& file : fs::directory_iterator(folder.path() / "points"))
-    estimate.bytes += static_cast<double>(file.file_size() * plan_.design.points());
+  const auto bytes_of = [](const fs::path& file) {
+    std::error_code none;
+    const auto size = fs::file_size(file, none);
+    return none ? 0.0 : static_cast<double>(size);
+  };
+  const auto points = static_cast<double>(plan_.design.points());
+  const double alone = static_cast<double>(simulations());
+  estimate.bytes = points * bytes_of(folder.picture_file(run.front())) +
+                   alone * bytes_of(folder.point_file(run.front())) +
+                   (points - alone) * bytes_of(folder.point_file(run.back()));
   return estimate;
 }
 

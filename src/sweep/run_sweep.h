@@ -70,7 +70,8 @@ class Sweep {
   /// the same shard.
   SweepCounters run(const SweepFolder& folder, const SweepOptions& options);
 
-  /// Runs one point, of a group in the middle, with its picture, and estimates time and bytes of the sweep.
+  /// Runs one simulation, of a group in the middle, with its picture, and estimates time and bytes of the
+  /// sweep.
   struct Estimate {
     double seconds = 0.0;  ///< for all points, on one core
     double bytes = 0.0;    ///< for all points

@@ -116,7 +116,7 @@ class SweepFile {
     std::vector<Hdf5GridWriter::Block> parts;
     for (std::size_t point = 0; point < sweep_.surfaces.size(); ++point) {
       if (!sweep_.surfaces[point]) continue;
-      const auto file = sweep_.folder.point_file(point).lexically_relative(sweep_.folder.path());
+      const auto file = sweep_.surfaces[point]->file.lexically_relative(sweep_.folder.path());
       parts.push_back({point, file.string(), "/surface"});
     }
     file_.write_virtual("surface", shape_, static_cast<std::size_t>(bed.rows()),

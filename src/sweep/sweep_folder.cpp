@@ -18,6 +18,8 @@
 namespace sandstroke {
 namespace {
 
+constexpr const char* surface_in = "surface_in";  // an attribute of a point's file
+
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
@@ -205,6 +207,16 @@ fs::path SweepFolder::picture_file(std::size_t point) const {
   return path_ / "points" / fmt::format("{:06}.png", point);
 }
 
+fs::path SweepFolder::surface_file(std::size_t point) const {
+  const Hdf5Reader file(point_file(point));
+  if (!file.has_attribute("/", surface_in)) return point_file(point);
+  const fs::path shared = path_ / "points" / fs::path(file.text_attribute("/", surface_in)).filename();
+  if (!fs::exists(shared))
+    throw_input_error("{}: shares the surface in {}, which is missing", point_file(point).string(),
+                      shared.string());
+  return shared;
+}
+
 std::optional<PointResult> SweepFolder::read(std::size_t point) const {
   const fs::path path = point_file(point);
   if (!fs::exists(path)) return std::nullopt;
@@ -227,7 +239,7 @@ std::optional<PointResult> SweepFolder::read(std::size_t point) const {
 }
 
 void SweepFolder::write(std::size_t point, const PointResult& result, const std::string& scene_text,
-                        const HeightField* surface) const {
+                        const Surface& surface) const {
   Hdf5Writer file(point_file(point), output_kind(InputKind::point));
   file.attribute("/", "point", static_cast<double>(point));
   file.attribute("/", "verdict", verdict_names[static_cast<std::size_t>(result.verdict)]);
@@ -236,9 +248,11 @@ void SweepFolder::write(std::size_t point, const PointResult& result, const std:
   file.make_group("/metrics");
   for (std::size_t i = 0; i < metrics_.size(); ++i)
     file.attribute("/metrics", metrics_[i].name, result.metrics[i]);
-  if (surface) {
-    write_bed(file, "/surface", *surface);
-    file.attribute("/surface", "cell_size", surface->cell_size());
+  if (surface.same_as) {
+    file.attribute("/", surface_in, point_file(*surface.same_as).filename().string());
+  } else if (surface.heights) {
+    write_bed(file, "/surface", *surface.heights);
+    file.attribute("/surface", "cell_size", surface.heights->cell_size());
   }
   file.finish();
 }

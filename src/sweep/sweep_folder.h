@@ -37,7 +37,8 @@ void refuse_link(const std::filesystem::path& folder);
 ///   manifest.json         SweepManifest, written before any point
 ///   points/000042.h5      one point, complete or absent. / has the attributes format = "sandstroke.point",
 ///                         format_version = 1, point, verdict, reason; /metrics has one per metric.
-///                         /scene: the resolved scene; /surface (ny, nx) m, if kept
+///                         /scene: the resolved scene; /surface (ny, nx) m, if kept, unless the attribute
+///                         surface_in names another file in points/ with the same
 ///   points/000042.png     its picture, if kept; written before the .h5
 ///   sweep.h5 .csv .html   written by collect()
 class SweepFolder {
@@ -57,12 +58,20 @@ class SweepFolder {
 
   std::filesystem::path point_file(std::size_t point) const;
   std::filesystem::path picture_file(std::size_t point) const;
+  /// The file whose /surface is that of a point with a result. Error: io, input, where the point cannot be
+  /// read, or its surface's file is missing.
+  std::filesystem::path surface_file(std::size_t point) const;
   /// Reads a point. None if its file is missing or cannot be read (cut off).
   std::optional<PointResult> read(std::size_t point) const;
 
+  /// A point's surface to keep: its heights, or the earlier point whose file holds the same. Neither: none.
+  struct Surface {
+    const HeightField* heights = nullptr;
+    std::optional<std::size_t> same_as = {};
+  };
   /// Writes one point's file, completely and on the disk, or not at all. Error: io.
   void write(std::size_t point, const PointResult& result, const std::string& scene_text,
-             const HeightField* surface) const;
+             const Surface& surface) const;
 
   /// The command that runs one point alone.
   std::string command(std::size_t point) const;

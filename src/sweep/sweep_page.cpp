@@ -8,12 +8,15 @@
 #include "core/error.h"
 #include "io/png_file.h"
 #include "io/table.h"
+#include "picture/shrunk.h"
 #include "report/data_uri.h"
 #include "report/page.h"
+#include "sweep/effects.h"
 #include "sweep/thumbnail.h"
 
 SANDSTROKE_DECLARE_ASSET(sweep);
 SANDSTROKE_DECLARE_ASSET(sweep_charts);
+SANDSTROKE_DECLARE_ASSET(sweep_effects);
 SANDSTROKE_DECLARE_ASSET(sweep_points);
 SANDSTROKE_DECLARE_ASSET(sweep_style);
 
@@ -78,7 +81,7 @@ class Thumbnails {
       if (pictures_missing_++ == 0) first_missing_ = failure.what();
     }
     if (!sweep_.surfaces[point]) return nullptr;
-    return uri(surface_thumbnail(folder.point_file(point), span_));
+    return uri(surface_thumbnail(sweep_.surfaces[point]->file, span_));
   }
 
   void report_missing(CollectReport& report) const {
@@ -125,6 +128,19 @@ Json points_json(const CollectedSweep& sweep, const std::vector<PageAxis>& axes,
   return points;
 }
 
+/// For each metric its effects, the largest first. axes: indices.
+Json effects_json(const CollectedSweep& sweep) {
+  Json all = Json::array();
+  for (std::size_t metric = 0; metric < sweep.folder.metrics().size(); ++metric) {
+    Json effects = Json::array();
+    for (const Effect& one : effects_on(sweep, metric))
+      effects.push_back(
+          {{"axes", one.axes}, {"share", one.share}, {"least", one.least}, {"greatest", one.greatest}});
+    all.push_back(std::move(effects));
+  }
+  return all;
+}
+
 }  // namespace
 
 Json sweep_page_data(const CollectedSweep& sweep, CollectReport& report) {
@@ -145,6 +161,8 @@ Json sweep_page_data(const CollectedSweep& sweep, CollectReport& report) {
           {"design", sweep.folder.design().grid ? "grid" : "latin"},
           {"axes", std::move(axes_json)},
           {"metrics", std::move(metrics)},
+          {"effects", effects_json(sweep)},
+          {"idle", idle_axes(sweep)},
           {"points", points_json(sweep, axes, report)},
           {"counts",
            {{"points", sweep.results.size()},
@@ -154,9 +172,9 @@ Json sweep_page_data(const CollectedSweep& sweep, CollectReport& report) {
 }
 
 std::string sweep_page(const Json& data) {
-  const PageAssets own{
-      .scripts = {SANDSTROKE_ASSET(sweep_charts), SANDSTROKE_ASSET(sweep_points), SANDSTROKE_ASSET(sweep)},
-      .styles = {SANDSTROKE_ASSET(sweep_style)}};
+  const PageAssets own{.scripts = {SANDSTROKE_ASSET(sweep_charts), SANDSTROKE_ASSET(sweep_effects),
+                                   SANDSTROKE_ASSET(sweep_points), SANDSTROKE_ASSET(sweep)},
+                       .styles = {SANDSTROKE_ASSET(sweep_style)}};
   return html_page("Sweep " + data["title"].get<std::string>(), own, data);
 }
 

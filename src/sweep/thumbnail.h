@@ -8,10 +8,6 @@ namespace sandstroke {
 
 inline constexpr int thumbnail_width = 192;  ///< pixels
 
-/// Shrinks a picture to `width`. Each pixel is the mean of those that it covers. A narrower picture stays as
-/// it is.
-Image shrunk(const Image& picture, int width);
-
 /// Draws a map of a point's kept surface, no side longer than thumbnail_width. Colours go from blue at -span
 /// to red at span [m] > 0. Error: io, input.
 Image surface_thumbnail(const std::filesystem::path& point_file, double span);

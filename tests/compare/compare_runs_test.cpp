@@ -234,6 +234,14 @@ TEST_F(CompareRuns, WhatIsNoRunFileIsBadInput) {
   EXPECT_THROW(RunFile(folder / "other.h5"), Error);
 }
 
+TEST(Comparison, IsAsBadAsItsWorstCheck) {
+  EXPECT_EQ(
+      (Comparison{"run", {limit_check("a", 0.5, 1.0, "m", ""), limit_check("b", 3.0, 4.0, "N", "")}}.worst()),
+      0.75);
+  EXPECT_EQ((Comparison{"run", {limit_check("a", 6.0, 4.0, "m", ""), passed_check("b", "")}}.worst()), 1.5);
+  EXPECT_TRUE(std::isinf(Comparison{"run", {failed_check("a", "")}}.worst()));
+}
+
 TEST(Comparison, HasNotPassedWithoutChecks) { EXPECT_FALSE(Comparison{}.passed()); }
 
 TEST(CheckTable, IsAlignedAndExplainsWhatFailed) {

@@ -153,6 +153,12 @@ TEST_F(GoldenScenes, AnUpdateRefusesWhatARunEndsWithCode3For) {
       refusal([](RunResult& result) { result.device.swings_from = 0.5; }).find("from 0.500 s on the device"),
       std::string::npos);
   EXPECT_EQ(refusal([](RunResult&) {}), "updated");
+  const SceneRunner unrelaxed = [&](const fs::path& scene, const fs::path& file) {
+    GoldenRun made = runner()(scene, file);
+    made.result.relaxation.converged = false;
+    return made;
+  };
+  EXPECT_TRUE(update_golden("dune", folders, unrelaxed, true)) << "a scene may show just this";
 }
 
 TEST_F(GoldenScenes, ARunThatStopsIsAFailedCheck) {

@@ -32,10 +32,21 @@ TEST(TraceDifference, ForceIsTheLengthOfTheDifferenceAtItsTime) {
   EXPECT_DOUBLE_EQ(difference.force.max, 5.0);
   EXPECT_EQ(difference.force.tick, 50u);
   EXPECT_DOUBLE_EQ(difference.force.time, 0.05);
+  EXPECT_DOUBLE_EQ(difference.force.first, 0.05);
   EXPECT_DOUBLE_EQ(difference.depth.max, 0.5);
   EXPECT_EQ(difference.depth.tick, 70u);
   EXPECT_DOUBLE_EQ(difference.level.max, 0.25);
   EXPECT_EQ(difference.level.tick, 80u);
+}
+
+TEST(TraceDifference, KnowsWhereItBeginsToo) {
+  const std::vector<TickRecord> golden = SyntheticRun().trace;
+  std::vector<TickRecord> run = golden;
+  run[40].depth += 1e-9;
+  run[70].depth += 0.5;
+  const ColumnDifference depth = trace_difference(golden, run).depth;
+  EXPECT_EQ(depth.tick, 70u);
+  EXPECT_DOUBLE_EQ(depth.first, golden[40].time);
 }
 
 TEST(TraceDifference, NanCountsWhereTheToolIsNotLiftedOrOnlyOneHasIt) {

@@ -10,8 +10,6 @@
 namespace sandstroke {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 std::vector<TickRecord> trace_of(std::size_t ticks, const Eigen::Vector3d& force, double depth) {
   std::vector<TickRecord> trace;
   for (std::size_t tick = 0; tick < ticks; ++tick) {
@@ -44,7 +42,7 @@ TEST(TracesPart, HasTheQuantitiesAndTheEnergyOfOneRun) {
   ASSERT_EQ(part["quantities"].size(), 7u);
   for (const Json& quantity : part["quantities"]) EXPECT_EQ(quantity["run"]["at"], Json({0.0, 0.5, 1.0}));
   EXPECT_EQ(part["quantities"][0]["run"]["value"], Json({5.0, 5.0, 5.0}));
-  EXPECT_EQ(part["quantities"][4]["run"]["value"], Json({0.5, 0.5, 0.5}));
+  EXPECT_EQ(part["quantities"][4]["run"]["value"], Json({500.0, 500.0, 500.0}));
   EXPECT_EQ(part["quantities"][6]["name"], "energy");
   EXPECT_EQ(part["quantities"][6]["unit"], "J");
   EXPECT_EQ(part["quantities"][6]["run"]["value"], Json({0.0, 1.5, 3.0}));
@@ -94,7 +92,7 @@ TEST(TracesPart, HasEachQuantityOfBothAndTheirDifferenceWhereBothHaveTicks) {
   expect(0, 5.0, 5.0, std::sqrt(2.0));  // of the magnitude, the length of the difference
   expect(2, 3.0, 4.0, 1.0);
   expect(3, 4.0, 3.0, -1.0);
-  expect(4, 0.5, 0.75, 0.25);
+  expect(4, 500.0, 750.0, 250.0);  // mm
   EXPECT_EQ(Json::parse(part["quantities"][5]["golden"]["value"].dump()), Json({nullptr, nullptr, nullptr}))
       << "a gap while the tool is lifted";
 }
@@ -131,8 +129,8 @@ TEST(TracesPart, EachQuantityHasItsOwnValuesUnitAndLimit) {
   const std::vector<std::tuple<double, double, const char*, double>> expected = {{1.0, 11.0, "N", 0.2},
                                                                                  {2.0, 22.0, "N", 0.2},
                                                                                  {3.0, 33.0, "N", 0.2},
-                                                                                 {4.0, 44.0, "m", 0.3},
-                                                                                 {5.0, 55.0, "m", 0.3}};
+                                                                                 {4e3, 44e3, "mm", 300.0},
+                                                                                 {5e3, 55e3, "mm", 300.0}};
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const Json& quantity = part["quantities"][i + 1];  // after the force's magnitude
     const auto& [in_golden, in_run, unit, limit] = expected[i];
@@ -144,6 +142,9 @@ TEST(TracesPart, EachQuantityHasItsOwnValuesUnitAndLimit) {
     EXPECT_EQ(quantity["limit"], limit);
     EXPECT_EQ(quantity["group"], i < 3 ? "Force on the device" : "Tool in the sand");
   }
+  // Above the sand, the depth is drawn as 0: the hand's height would squash what counts.
+  golden[0].depth = -0.5;
+  EXPECT_EQ(traces_part(golden, run, tolerances)["quantities"][4]["golden"]["value"], Json({0.0, 4e3}));
   EXPECT_EQ(part["quantities"][0]["unit"], "N");
   EXPECT_EQ(part["quantities"][0]["limit"], 0.2);
 }

@@ -4,6 +4,7 @@
 
 #include "browser.h"
 #include "compare/synthetic_run.h"
+#include "core/error.h"
 #include "report/hostile_text.h"
 
 namespace sandstroke {
@@ -123,8 +124,8 @@ TEST(RunReport, SaysTheErrorThatWasEstimated) {
   const Json part = Reported().page(error).data["parts"][4];
   std::vector<double> values;
   for (const Json& figure : part["figures"]) values.push_back(figure["value"]);
-  EXPECT_EQ(values, (std::vector{25.0, 1e-4, 2e-3, 0.1, 0.5}));
-  EXPECT_EQ(names_of(part["figures"], "unit"), (Names{"%", "m", "m", "N", "N"}));
+  EXPECT_EQ(values, (std::vector{25.0, 0.1, 2.0, 0.1, 0.5}));
+  EXPECT_EQ(names_of(part["figures"], "unit"), (Names{"%", "mm", "mm", "N", "N"}));
   error.at_rest = false;
   EXPECT_NE(Reported().page(error).data["parts"][4]["text"].get<std::string>().find("not at rest"),
             std::string::npos);
@@ -157,7 +158,7 @@ TEST_F(RunReportInBrowser, DrawsPictureCurvesProfilesAndTables) {
   // The charts hold the work of 2 N over 104 mm, and the way of the tip in contact.
   EXPECT_NEAR(browser().evaluate("charts[2].drawn.getOption().series[0].data.at(-1)[1]"), 0.208, 1e-12);
   EXPECT_EQ(browser().evaluate("charts.map(({ drawn }) => drawn.getOption().yAxis[0].name)"),
-            Json({"magnitude (N)", "depth (m)", "energy (J)", "height (m)", "height (m)"}));
+            Json({"magnitude (N)", "depth (mm)", "energy (J)", "height (mm)", "height (mm)"}));
   EXPECT_EQ(browser().evaluate("charts.slice(3).map(({ drawn }) => drawn.getOption().series.length)"),
             Json({2, 2}));
   EXPECT_EQ(texts("#settings tbody td"), Json({"stroke.file", "\"line.toml\""}));

@@ -23,16 +23,18 @@ Json stress_data() { return data_of("stress_data.json"); }
 
 using Page = std::string (*)(const Json& data);
 
-OpenedPage open(Page page, const Json& data, const std::string& probe) {
-  return open_in_chromium(page(data), probe);
-}
+class AnyPage : public BrowserTest {
+ protected:
+  static OpenedPage open(Page page, const Json& data, const std::string& probe) {
+    return open_page(page(data), probe);
+  }
+};
 
 /// A probe from statements that return its value.
 std::string function(const std::string& body) { return "(() => {" + body + "})()"; }
 
-using Bench = BrowserTest;
-using Stress = BrowserTest;
-using AnyPage = BrowserTest;
+using Bench = AnyPage;
+using Stress = AnyPage;
 
 TEST_F(Bench, LoadsWithoutErrorsAndDrawsTheChartsOfItsData) {
   // The cone varies its cells and knows directions, the drag does neither.
@@ -159,6 +161,73 @@ TEST_F(Bench, ATableSortsByItsHeadsWithNoneLastAndFiltersByProblem) {
   EXPECT_EQ(page.answer[3], 0) << "the keyboard reaches it";
 }
 
+/// Advice on two subjects: which setting keeps which error, and at which cost.
+Json advice() {
+  const auto setting = [](const char* label, double error, double seconds, bool front) {
+    return Json{{"series", "rkl"},    {"label", label},     {"error", error},
+                {"seconds", seconds}, {"disturbed", false}, {"front", front}};
+  };
+  return {{{"subject", "Heaps"},
+           {"problems", {"A cone", "A cylinder"}},
+           {"settings", {setting("64 cells", 0.05, 0.004, true), setting("128 cells", 0.015, 0.5, true)}}},
+          {{"subject", "Strokes"},
+           {"problems", {"A stroke"}},
+           {"settings", {setting("coarse", 0.08, 2.0, true), setting("odd", 0.09, 3.0, false)}}}};
+}
+
+TEST_F(Bench, SaysWhichSettingKeepsAnErrorAtWhichCost) {
+  Json data = bench_data();
+  data["advice"] = advice();
+  const OpenedPage page = open(bench_page, data, function(R"js(
+    const cells = [...document.querySelectorAll("#advice tr")].map((row) => [...row.children].map((one) => one.textContent));
+    return [cells, charts[0].option.series.map(({ data }) => data.length)];)js"));
+  EXPECT_EQ(page.answer[0], Json({{"Error at most", "Heaps", "Strokes"},
+                                  {"10 %", "4 ms rkl, 64 cells", "2 s rkl, coarse"},
+                                  {"2 %", "500 ms rkl, 128 cells", "–"},
+                                  {"least error", "1.5 %", "8 %"}}));
+  EXPECT_EQ(page.answer[1], Json({2, 2, 2, 1})) << "all settings of a subject, and its front";
+}
+
+TEST_F(Stress, SaysWhichLoopIsStableAndByHowMuch) {
+  Json data = stress_data();
+  const auto margin = [](const char* what, double value, double boundary, double factor) {
+    return Json{
+        {"what", what}, {"unit", "N/m"}, {"value", value}, {"boundary", boundary}, {"factor", factor}};
+  };
+  data["margins"] = {
+      {{"name", "mine"},
+       {"settings", "all of it"},
+       {"stable", true},
+       {"margins", {margin("stiffness", 100.0, 2500.0, 25.0), margin("rate", 1000.0, 125.0, 8.0)}}},
+      {{"name", "yours"},
+       {"settings", "all of it"},
+       {"stable", false},
+       {"margins", {margin("stiffness", 100.0, 50.0, 0.5), margin("rate", 10.0, 20.0, 0.5)}}}};
+  const OpenedPage page = open(stress_page, data, function(R"js(
+    const texts = (selector) => [...document.querySelectorAll(`#margins ${selector}`)].map((one) => one.textContent);
+    return [texts("li"), texts("td"), [...document.querySelectorAll("#margins td strong")].map((one) => one.className)];)js"));
+  EXPECT_EQ(page.answer[0], Json({"mine: stable, 8 × from its nearest boundary, that of the rate (all of it)",
+                                  "yours: unstable (all of it)"}));
+  EXPECT_EQ(page.answer[1][0], "25 × 100 now, stable up to 2500 N/m");
+  EXPECT_EQ(page.answer[2], Json({"good", "bad", "good", "bad"}));
+}
+
+TEST_F(Stress, AMapShowsWhereASettingIsAndWhetherItsOthersAreTheMaps) {
+  Json data = stress_data();
+  const Json& x = data["maps"][0]["x"]["values"];
+  const Json& y = data["maps"][0]["y"]["values"];
+  data["maps"][0]["marks"] = {
+      {{"name", "mine"}, {"x", x[0]}, {"y", y[0]}, {"same", true}, {"stable", true}},
+      {{"name", "yours"}, {"x", x[0]}, {"y", 1e12}, {"same", false}, {"stable", false}}};
+  const OpenedPage page = open(stress_page, data, function(R"js(
+    return [charts[0].option.series.filter(({ type }) => type === "scatter").map(({ name }) => name),
+            [...document.querySelectorAll("#maps figure")[0].querySelectorAll(".legend li")].map((one) => one.textContent)];)js"));
+  EXPECT_EQ(page.answer[0], Json({"mine"}));
+  const std::string legend = page.answer[1].dump();
+  EXPECT_NE(legend.find("mine: stable\""), std::string::npos) << legend;
+  EXPECT_NE(legend.find("yours: unstable, which is outside this map"), std::string::npos) << legend;
+}
+
 TEST_F(Bench, MarksEstimatesThatAreNotWithinAFactorOfThree) {
   const OpenedPage page =
       open(bench_page, bench_data(),
@@ -188,7 +257,7 @@ TEST_F(Stress, AMapHasACellOfItsVerdictsColourForEachPairAndOutlinesSurprises) {
       figure.querySelectorAll(`.canvas path[${attribute}="${colour}"]`).length;
     return figures.map((figure) => [
       Object.fromEntries([...verdicts].map(([name, look]) => [name, all(figure, "fill", look.fill)])),
-      all(figure, "stroke", surpriseColour)]);)js"));
+      all(figure, "stroke", outlineColour)]);)js"));
   ASSERT_EQ(page.answer.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     std::map<std::string, int> count;
@@ -237,10 +306,10 @@ TEST_F(Stress, SurprisesOnlyLeavesSurprisesOnly) {
 
 TEST_F(AnyPage, SaysThatItHasNoData) {
   const Json none = Json::array();
-  const Json bench = {{"problems", none}, {"columns", none},   {"runs", none},
-                      {"orders", none},   {"estimates", none}, {"notes", none}};
-  const Json stress = {
-      {"surprises", 0}, {"cases", none}, {"maps", none}, {"boundaries", none}, {"traces", none}};
+  const Json bench = {{"problems", none},  {"columns", none}, {"runs", none},         {"orders", none},
+                      {"estimates", none}, {"notes", none},   {"asked_errors", none}, {"advice", none}};
+  const Json stress = {{"surprises", 0}, {"margins", none},    {"cases", none},
+                       {"maps", none},   {"boundaries", none}, {"traces", none}};
   for (const auto& [page_of, data, sentence] : {std::tuple{&bench_page, bench, "Nothing was measured"},
                                                 std::tuple{&stress_page, stress, "Nothing was tested"}}) {
     const OpenedPage page =
@@ -328,6 +397,62 @@ TEST_F(AnyPage, TextOfTheDataStaysText) {
   }
 }
 
+// Tools that capture a whole page give it a window of one pixel for a moment, and take the picture before a
+// chart that followed could be drawn anew.
+TEST_F(AnyPage, ChartsKeepTheirSizeInAWindowOfAPixel) {
+  browser().open_text(stress_page(stress_data()));
+  const auto widths = [&] {
+    return browser().evaluate(
+        "[...document.querySelectorAll('.canvas svg')].map((one) => Number(one.getAttribute('width')))");
+  };
+  const Json before = widths();
+  browser().resize(1, 1);
+  browser().wait_for("document.querySelector('.canvas').clientWidth < 100");
+  browser().evaluate(
+      "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(1))))");
+  EXPECT_EQ(widths(), before);
+  browser().resize(800, 600);
+  browser().wait_for(
+      "Number(document.querySelector('.canvas svg').getAttribute('width')) === "
+      "document.querySelector('.canvas').clientWidth");
+  for (const Json& width : widths()) EXPECT_GE(width, 200);
+  EXPECT_TRUE(browser().errors().empty());
+}
+
+/// The lowest edge of what a selector names, in a window 1280 wide.
+double lowest_edge(Browser& browser, const std::string& selector) {
+  browser.resize(1280, 900);
+  browser.wait_for("innerWidth === 1280");
+  return browser.evaluate("document.querySelector(" + Json(selector).dump() +
+                          ").getBoundingClientRect().bottom");
+}
+
+TEST_F(AnyPage, TheAnswerStandsInTheFirstScreen) {
+  Json bench = bench_data(), stress = stress_data();
+  bench["advice"] = advice();
+  bench["asked_errors"] = {0.2, 0.1, 0.05, 0.02, 0.01, 0.005};
+  bench["disturbance"] = std::string(200, 'x');
+  const Json margin = {{"what", "a"}, {"unit", "N"}, {"value", 1.0}, {"boundary", 2.0}, {"factor", 2.0}};
+  stress["margins"] = {
+      {{"name", "mine"}, {"settings", ""}, {"stable", true}, {"margins", {margin, margin, margin, margin}}}};
+  browser().open_text(bench_page(bench));
+  EXPECT_LT(lowest_edge(browser(), "#advice .canvas"), 900.0);
+  browser().open_text(stress_page(stress));
+  EXPECT_LT(lowest_edge(browser(), "#margins table"), 900.0);
+}
+
+TEST_F(AnyPage, NothingIsWiderThanANarrowWindow) {
+  Json bench = bench_data(), stress = stress_data();
+  bench["advice"] = advice();
+  bench["problems"][0]["title"] = "A problem whose title is longer than a narrow window is wide";  // a choice
+  for (const std::string& page : {bench_page(bench), stress_page(stress)}) {
+    browser().open_text(page);
+    browser().resize(400, 900);
+    browser().wait_for("innerWidth === 400");
+    EXPECT_LE(browser().evaluate("document.documentElement.scrollWidth"), 400);
+  }
+}
+
 TEST_F(AnyPage, ChartsTakeTheWidthOfTheirFrame) {
   const OpenedPage page = open(stress_page, stress_data(), function(R"js(
     const widths = () => [...document.querySelectorAll(".canvas")].map((canvas) =>
@@ -341,6 +466,59 @@ TEST_F(AnyPage, ChartsTakeTheWidthOfTheirFrame) {
   EXPECT_LE(page.answer[1], 1);
   EXPECT_EQ(page.answer[2], 688);
   EXPECT_LE(page.answer[3], 1);
+}
+
+/// The contrasts of a page: of its paper to black, the least of its charts' text to the paper, and the least
+/// of the lines of its charts, as their legends show them.
+const std::string contrasts = R"js((() => {
+  const brightness = (colour) => {
+    const [red, green, blue] = colour.match(/[\d.]+/g).map((part) => part / 255)
+      .map((part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4));
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+  };
+  const contrast = (one, other) => {
+    const [low, high] = [one, other].map(brightness).sort((a, b) => a - b);
+    return (high + 0.05) / (low + 0.05);
+  };
+  const paper = getComputedStyle(document.body).backgroundColor;
+  const least = (selector, property) => Math.min(...[...document.querySelectorAll(selector)]
+    .map((one) => contrast(getComputedStyle(one)[property], paper)));
+  return [contrast(paper, "rgb(0, 0, 0)"), least(".canvas svg text", "fill"),
+          least(".legend button path:first-child", "stroke")];
+})())js";
+
+TEST_F(Bench, ChartsCanBeReadInTheDarkAndOnPaper) {
+  browser().open_text(bench_page(bench_data()));
+  browser().prefer("dark");
+  const Json dark = browser().evaluate(contrasts);
+  EXPECT_LT(dark[0], 1.5);
+  EXPECT_GE(dark[1], 4.5);
+  EXPECT_GE(dark[2], 3.0);
+  browser().evaluate("dispatchEvent(new Event('beforeprint'))");
+  const Json paper = browser().evaluate(contrasts);
+  EXPECT_NEAR(paper[0], 21.0, 1e-9) << "white";
+  EXPECT_GE(paper[1], 4.5);
+  EXPECT_TRUE(browser().errors().empty());
+}
+
+// Charts of many items are canvases, which know no names of colours.
+TEST_F(Bench, AChartOnACanvasTurnsDarkToo) {
+  browser().open_text(bench_page(bench_data()));
+  browser().evaluate(function(R"js(
+    const one = charts[0];
+    one.drawn.dispose();
+    drawChart(Object.assign(one, { renderer: "canvas" }));)js"));
+  for (const char* scheme : {"light", "dark"}) {
+    browser().prefer(scheme);
+    browser().wait_for(function(R"js(
+      const name = getComputedStyle(document.documentElement).getPropertyValue("--axis");
+      const axis = echarts.color.parse(name).slice(0, 3), canvas = document.querySelector(".canvas canvas");
+      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+      let found = 0;
+      for (let i = 0; i < data.length; i += 4) if (axis.every((part, k) => data[i + k] === part)) found += 1;
+      return found > 100;)js"));
+  }
+  EXPECT_TRUE(browser().errors().empty());
 }
 
 }  // namespace

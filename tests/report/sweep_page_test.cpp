@@ -75,6 +75,8 @@ Json sweep_data(const Json& axes, const std::string& design = "grid") {
       {"metrics",
        {{{"name", "max_force"}, {"title", "peak force"}, {"unit", "N"}, {"definition", "largest |F| <b>"}},
         {{"name", "passes"}, {"title", "passes"}, {"unit", ""}, {"definition", "of all"}}}},
+      {"effects", {Json::array(), Json::array()}},
+      {"idle", Json::array()},
       {"points", points},
       {"counts", {{"points", points.size()}, {"done", points.size()}, {"failed", 0}, {"missing", 0}}}};
 }
@@ -154,6 +156,54 @@ class SweepPage : public BrowserTest {
                "')).map(({ data }) => data.map(({ point, value }) => [point.point, value]))");
   }
 };
+
+TEST_F(SweepPage, SaysWhatMattersAndShowsItFirst) {
+  Json data = three_axes_data();
+  data["effects"] = {{{{"axes", {1}}, {"share", 0.7}, {"least", 1.0}, {"greatest", 12.5}},
+                      {{"axes", {0, 1}}, {"share", 0.2}, {"least", 0.0}, {"greatest", 15.0}},
+                      {{"axes", {0}}, {"share", 0.1}, {"least", -1.0}, {"greatest", 2.0}},
+                      {{"axes", {2}}, {"share", 0.0}, {"least", 0.0}, {"greatest", 0.0}}},
+                     Json::array()};
+  data["idle"] = {2};
+  open(data);
+  const Json rows =
+      browser().evaluate("[...document.querySelectorAll('.effects tr')].map((row) => row.textContent)");
+  EXPECT_EQ(rows, Json({"force.k_s70 %mean from 1 to 12.5 N",
+                        "relaxation.talus_angle and force.k_s20 %together, beyond what each does alone",
+                        "relaxation.talus_angle10 %mean from −1 to 2 N"}));
+  EXPECT_EQ(browser().evaluate("document.querySelector('.effects .note').textContent"),
+            "Without any effect on any metric: relaxation.law.");
+  EXPECT_EQ(browser().evaluate("[...document.querySelectorAll('select')].slice(0, 4).map((one) => "
+                               "one.selectedOptions[0].textContent)")[2],
+            "force.k_s")
+      << "the horizontal axis is what matters most";
+  browser().click(".effects tr:nth-child(3) button");
+  EXPECT_EQ(browser().evaluate("document.querySelector('select[name=x]').selectedOptions[0].textContent"),
+            "relaxation.talus_angle");
+  browser().choose("select[name=metric]", "passes");
+  EXPECT_NE(browser()
+                .evaluate("document.querySelector('.effects').textContent")
+                .get<std::string>()
+                .find("the same at all points"),
+            std::string::npos);
+  EXPECT_TRUE(browser().errors().empty());
+}
+
+TEST_F(SweepPage, TheEffectsStandInTheFirstScreen) {
+  Json data = three_axes_data();
+  Json effects = Json::array();
+  for (const Json& axes : {Json::array({0}), Json::array({1}), Json::array({2}), Json::array({0, 1}),
+                           Json::array({0, 2}), Json::array({1, 2})})
+    effects.push_back({{"axes", axes}, {"share", 0.15}, {"least", 0.0}, {"greatest", 1.0}});
+  data["effects"] = {effects, Json::array()};
+  open(data);
+  browser().resize(1280, 900);
+  browser().wait_for("innerWidth === 1280");
+  EXPECT_LT(browser().evaluate("document.querySelector('.effects').getBoundingClientRect().bottom"), 900);
+  browser().resize(400, 900);
+  browser().wait_for("innerWidth === 400");
+  EXPECT_LE(browser().evaluate("document.documentElement.scrollWidth"), 400);
+}
 
 TEST_F(SweepPage, SaysWhatWasSweptAndWhatCameOfIt) {
   open(grid_data());

@@ -128,8 +128,8 @@ class SweepOnSlurm : public testing::Test {
             local.metrics()[i].timing || same_bits(&result->metrics[i], &expected->metrics[i], 1);
         EXPECT_TRUE(same) << local.metrics()[i].name << " of point " << point;
       }
-      const HeightGrid surface = Hdf5Reader(other.point_file(point)).grid("/surface"),
-                       there = Hdf5Reader(local.point_file(point)).grid("/surface");
+      const HeightGrid surface = Hdf5Reader(other.surface_file(point)).grid("/surface"),
+                       there = Hdf5Reader(local.surface_file(point)).grid("/surface");
       ASSERT_EQ(surface.size(), there.size());
       EXPECT_TRUE(same_bits(surface.data(), there.data(), surface.size())) << "surface of point " << point;
     }

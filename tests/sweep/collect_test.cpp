@@ -108,8 +108,8 @@ using Names = std::vector<std::string>;
 
 TEST_F(Collect, AGridIsArraysOverScalesWithWhatIsMissingLeftOut) {
   const SweepFolder folder = make(grid_manifest());
-  for (const std::size_t point : {0, 1, 4}) folder.write(point, result_of(point), "", nullptr);
-  folder.write(3, {PointVerdict::unstable, "it blew up", {none, none, none}}, "", nullptr);
+  for (const std::size_t point : {0, 1, 4}) folder.write(point, result_of(point), "", {});
+  folder.write(3, {PointVerdict::unstable, "it blew up", {none, none, none}}, "", {});
   std::ofstream(folder.point_file(5)) << "cut off";
   const CollectReport report = collect(folder);
   EXPECT_EQ(report.done, 3u);
@@ -153,7 +153,7 @@ TEST_F(Collect, AGridIsArraysOverScalesWithWhatIsMissingLeftOut) {
 
 TEST_F(Collect, ALatinHypercubeIsArraysAlongItsPoints) {
   const SweepFolder folder = make(latin_manifest());
-  for (const std::size_t point : {2, 0}) folder.write(point, result_of(point), "", nullptr);
+  for (const std::size_t point : {2, 0}) folder.write(point, result_of(point), "", {});
   collect(folder);
   const Hdf5Reader opened(file());
   expect_numbers(opened.doubles("max_force"), {1.0 / 3.0, none, 1.0 / 5.0});
@@ -181,7 +181,7 @@ TEST_F(Collect, SurfacesAreThoseOfThePointsFromAnywhereAndAfterAMove) {
     const SweepFolder folder = make(manifest);
     for (const std::size_t point : {0, 1, 2, 4, 5}) {
       const HeightField surface = surface_of(point);
-      folder.write(point, result_of(point), "", &surface);
+      folder.write(point, result_of(point), "", {&surface});
     }
     EXPECT_EQ(collect(folder).surfaces_missing, 0u);
   }
@@ -207,7 +207,7 @@ TEST_F(Collect, SurfacesAreThoseOfThePointsFromAnywhereAndAfterAMove) {
   fs::rename(parent / "sweep", parent / "other/moved");
   const SweepFolder trap = make(manifest);
   const HeightField wrong = make_surface({}, rows, cols, cell);
-  for (std::size_t point = 0; point < 6; ++point) trap.write(point, result_of(point), "", &wrong);
+  for (std::size_t point = 0; point < 6; ++point) trap.write(point, result_of(point), "", {&wrong});
   for (const fs::path& place : {fs::path("/"), parent / "sweep", parent / "other"}) {
     SCOPED_TRACE(place);
     const WorkingDirectory here(place);
@@ -217,14 +217,35 @@ TEST_F(Collect, SurfacesAreThoseOfThePointsFromAnywhereAndAfterAMove) {
   expect_surfaces("moved/sweep.h5");
 }
 
+TEST_F(Collect, ASurfaceThatSeveralPointsShareIsStoredOnce) {
+  SweepManifest manifest = grid_manifest();
+  manifest.keep_surface = true;
+  const SweepFolder folder = make(manifest);
+  HeightField surface(rows, cols, cell);  // of noise, which no compression makes small
+  for (int row = 0; row < rows; ++row)
+    for (int col = 0; col < cols; ++col) surface.set(row, col, 1e-3 * std::sin(1e5 * (row * cols + col)));
+  folder.write(0, result_of(0), "", {&surface});
+  for (const std::size_t point : {1, 2, 3, 4, 5}) folder.write(point, result_of(point), "", {&surface, 0});
+  EXPECT_LT(5 * fs::file_size(folder.point_file(1)), fs::file_size(folder.point_file(0)));
+  const CollectReport report = collect(folder);
+  EXPECT_EQ(report.surfaces_missing, 0u);
+  const Numbers values = read_all(file(), "surface");
+  for (std::size_t point = 0; point < 6; ++point)
+    for (int i = 0; i < rows * cols; ++i)
+      ASSERT_EQ(values[point * rows * cols + static_cast<std::size_t>(i)], surface.grid().data()[i]) << point;
+  // Who removes the file that holds it learns which points have none.
+  fs::remove(folder.point_file(0));
+  EXPECT_EQ(collect(folder).surfaces_missing, 5u);
+}
+
 TEST_F(Collect, SurfacesThatAreMissingOrDamagedAreReportedAndReadAsNothing) {
   SweepManifest manifest = grid_manifest();
   manifest.keep_surface = true;
   const SweepFolder folder = make(manifest);
   const HeightField surface = surface_of(0);
-  folder.write(0, result_of(0), "", &surface);
-  folder.write(1, result_of(1), "", nullptr);  // whoever wrote it did not keep it
-  folder.write(2, {PointVerdict::refused, "no such preset", {none, none, none}}, "", nullptr);
+  folder.write(0, result_of(0), "", {&surface});
+  folder.write(1, result_of(1), "", {});  // whoever wrote it did not keep it
+  folder.write(2, {PointVerdict::refused, "no such preset", {none, none, none}}, "", {});
   const CollectReport report = collect(folder);
   EXPECT_EQ(report.done, 2u);
   EXPECT_EQ(report.surfaces_missing, 1u);  // of those that are done
@@ -241,9 +262,9 @@ TEST_F(Collect, BedsThatDifferAreNotJoined) {
   manifest.keep_surface = true;
   const SweepFolder folder = make(manifest);
   const HeightField one = surface_of(0), smaller(50, 90, cell);
-  folder.write(0, result_of(0), "", &one);
-  folder.write(1, result_of(1), "", &smaller);
-  folder.write(2, result_of(2), "", &one);  // as the first one again
+  folder.write(0, result_of(0), "", {&one});
+  folder.write(1, result_of(1), "", {&smaller});
+  folder.write(2, result_of(2), "", {&one});  // as the first one again
   const CollectReport report = collect(folder);
   EXPECT_FALSE(Hdf5Reader(file()).has("surface"));
   EXPECT_NE(report.sentences.back().find("differ"), std::string::npos);
@@ -256,7 +277,7 @@ TEST_F(Collect, HugeBedsCostWhatIsInThem) {
   const SweepFolder folder = make(manifest);
   HeightField bed(65536, 65536, cell);
   bed.set(50000, 7, 0.5);
-  for (const std::size_t point : {0, 1}) folder.write(point, result_of(point), "", &bed);
+  for (const std::size_t point : {0, 1}) folder.write(point, result_of(point), "", {&bed});
   EXPECT_EQ(collect(folder).surfaces_missing, 0u);
   EXPECT_EQ(dataset_shape(file(), "surface"), (std::vector<hsize_t>{3, 2, 65536, 65536}));
   EXPECT_LT(fs::file_size(file()), 2'000'000u);
@@ -274,7 +295,7 @@ std::string hash_of(const std::vector<std::size_t>& order,
     if (change && point == 4) change(result);
     HeightField surface = surface_of(point);
     if (point == 4) surface.set(60, 80, surface(60, 80) + change_of_surface);
-    folder.write(point, result, "", &surface);
+    folder.write(point, result, "", {&surface});
   }
   return collect(folder).content_hash;
 }
@@ -308,7 +329,7 @@ TEST(ContentHashOfASweep, CountsSurfacesByTheirHeights) {
   std::vector<std::string> hashes;
   for (const std::string name : {"untouched", "touched"}) {
     const SweepFolder folder = SweepFolder::make(parent / name, manifest);
-    folder.write(0, result_of(0), "", &surface);
+    folder.write(0, result_of(0), "", {&surface});
     hashes.push_back(collect(folder).content_hash);
     surface.allocate(surface.tile_count() - 1);
   }

@@ -50,7 +50,7 @@ SweepOptions with_jobs(int jobs, Shard shard = {}) {
 }
 
 HeightGrid surface_in(const SweepFolder& folder, std::size_t point) {
-  return Hdf5Reader(folder.point_file(point)).grid("/surface");
+  return Hdf5Reader(folder.surface_file(point)).grid("/surface");
 }
 
 /// Same verdicts, metrics (but for times) and surfaces, to the bit.

@@ -97,7 +97,7 @@ TEST_F(AFolder, WhosePointsLieElsewhereIsRefused) {
 }
 
 TEST_F(AFolder, IsRefusedIfItHasPointsButNoManifest) {
-  SweepFolder::make(path, manifest()).write(0, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", nullptr);
+  SweepFolder::make(path, manifest()).write(0, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", {});
   fs::remove(path / "manifest.json");
   EXPECT_NE(refusal(path, manifest()).find("holds points"), std::string::npos) << refusal(path, manifest());
 }
@@ -126,7 +126,7 @@ TEST_F(AFolder, GivesPointsBackToTheBit) {
   EXPECT_FALSE(folder.read(3));
   HeightField surface = make_surface({}, 70, 90, 0.25);
   surface.set(3, 80, -0.1);
-  folder.write(3, {PointVerdict::active, "", {0.1, PointResult::none}}, "[bed]\n", &surface);
+  folder.write(3, {PointVerdict::active, "", {0.1, PointResult::none}}, "[bed]\n", {&surface});
   const auto result = folder.read(3);
   ASSERT_TRUE(result);
   EXPECT_EQ(result->verdict, PointVerdict::active);
@@ -136,20 +136,19 @@ TEST_F(AFolder, GivesPointsBackToTheBit) {
   EXPECT_TRUE((file.grid("/surface") == surface.grid()).all());
   EXPECT_EQ(file.number_attribute("/surface", "cell_size"), 0.25);
 
-  folder.write(1, {PointVerdict::unstable, "it \"blew\" up", {PointResult::none, PointResult::none}}, "",
-               nullptr);
+  folder.write(1, {PointVerdict::unstable, "it \"blew\" up", {PointResult::none, PointResult::none}}, "", {});
   EXPECT_EQ(folder.read(1)->reason, "it \"blew\" up");
 }
 
 TEST_F(AFolder, APointThatWasCutOffIsMissing) {
   const SweepFolder folder = SweepFolder::make(path, manifest());
-  folder.write(2, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", nullptr);
+  folder.write(2, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", {});
   fs::resize_file(folder.point_file(2), fs::file_size(folder.point_file(2)) / 2);
   EXPECT_FALSE(folder.read(2));
   std::ofstream(folder.point_file(1)) << "";
   EXPECT_FALSE(folder.read(1));
   // Another point's file under this name.
-  folder.write(0, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", nullptr);
+  folder.write(0, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", {});
   fs::rename(folder.point_file(0), folder.point_file(2));
   EXPECT_FALSE(folder.read(2));
 }

@@ -7,6 +7,7 @@
 #include "core/input_file.h"
 #include "core/output_file.h"
 #include "io/png_file.h"
+#include "picture/shrunk.h"
 #include "report/data_uri.h"
 #include "sweep/collect.h"
 #include "sweep/thumbnail.h"
@@ -43,9 +44,8 @@ class ASweepPage : public testing::Test {
 
 TEST_F(ASweepPage, ShowsDesignPointsAndCounts) {
   const SweepFolder folder = make(page_manifest());
-  folder.write(0, {PointVerdict::not_at_rest, "", {1.5, PointResult::none}}, "", nullptr);
-  folder.write(3, {PointVerdict::refused, "no <such> thing", {PointResult::none, PointResult::none}}, "",
-               nullptr);
+  folder.write(0, {PointVerdict::not_at_rest, "", {1.5, PointResult::none}}, "", {});
+  folder.write(3, {PointVerdict::refused, "no <such> thing", {PointResult::none, PointResult::none}}, "", {});
   std::ofstream(folder.point_file(2)) << "cut off";
   const Json data = data_of(folder, report);
   EXPECT_EQ(data["title"], "study");
@@ -104,9 +104,9 @@ TEST_F(ASweepPage, ShowsThePictureThatWasKeptOrAMapOfTheSurface) {
   Image picture(400, 300);
   std::fill(picture.rgb.begin(), picture.rgb.end(), std::uint8_t{99});
   write_png(folder.picture_file(0), picture);
-  folder.write(0, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", &bed);
-  folder.write(1, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", &higher);  // its picture is lost
-  folder.write(2, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", &bed);
+  folder.write(0, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", {&bed});
+  folder.write(1, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", {&higher});  // its picture is lost
+  folder.write(2, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", {&bed});
   std::ofstream(folder.picture_file(2)) << "no picture";
   const Json points = data_of(folder, report)["points"];
   EXPECT_EQ(points[0]["thumbnail"], uri(shrunk(picture, thumbnail_width)));
@@ -123,7 +123,7 @@ TEST_F(ASweepPage, ShowsLevelSandToo) {
   m.keep_surface = true;
   const SweepFolder folder = make(m);
   const HeightField level(10, 10, 0.1);
-  folder.write(0, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", &level);
+  folder.write(0, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", {&level});
   EXPECT_EQ(data_of(folder, report)["points"][0]["thumbnail"],
             uri(surface_thumbnail(folder.point_file(0), 1.0)));
 }
@@ -136,7 +136,7 @@ TEST_F(ASweepPage, HasNoPicturesOfVeryManyPointsAndSaysSo) {
   m.design = {true, {{"force.k_s", "N", false, values}}};
   const SweepFolder folder = make(m);
   const HeightField bed(10, 10, 0.1);
-  folder.write(0, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", &bed);
+  folder.write(0, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", {&bed});
   EXPECT_EQ(data_of(folder, report)["points"][0]["thumbnail"], nullptr);
   EXPECT_NE(report.sentences.back().find("no pictures"), std::string::npos);
 }

@@ -22,7 +22,7 @@ class SweepStatusTest : public testing::Test {
   }
   void done(std::initializer_list<std::size_t> points, PointVerdict verdict = PointVerdict::at_rest) const {
     for (const std::size_t point : points)
-      folder.write(point, {verdict, failed(verdict) ? "why" : "", {1.0}}, "", nullptr);
+      folder.write(point, {verdict, failed(verdict) ? "why" : "", {1.0}}, "", {});
   }
   SweepStatus local() const { return sweep_status(folder, std::nullopt, {}); }
   /// Three tasks that were to do all but point 0, and what the queue says of them.

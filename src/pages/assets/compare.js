@@ -58,6 +58,7 @@ drawPage((data, main) => {
        ...measured.map((check) => fact(`Largest difference: ${check.name}`, valueWithUnit(check.measured, check.unit),
                                        check.passed ? null : "bad"))),
     ...missingLines(missing),
+    data.settings ? el("p", {}, el("strong", {}, "Settings that differ: "), data.settings) : "",
     data.passed ? el("p", {}, "All differences are within their limits.") : "");
   drawSections(main, [["checks", "Checks", () => [checkTable(checks), tolerances.length ? toleranceTable(tolerances) : null]],
                       ...sectionsOf(parts), ["files", "Files", () => drawFiles(data)]]);

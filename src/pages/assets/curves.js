@@ -3,9 +3,9 @@
 // sand along a way.
 
 const lookOfSide = { golden: { colour: colours[0] }, run: { colour: colours[1], dash: "dashed" },
-                     recorded: { colour: colours[6], dash: "dotted" } };
+                     recorded: { colour: neutral, dash: "dotted" } };
 const lookOfDifference = { colour: colours[2] };
-const lookOfSurface = { initial: { colour: colours[6], dash: "dashed" }, last: { colour: colours[0] } };
+const lookOfSurface = { initial: { colour: neutral, dash: "dashed" }, last: { colour: colours[0] } };
 
 const overTime = { title: "time", unit: "s" };
 
@@ -27,9 +27,9 @@ function curveChart({ title, note, legend, whole, over }) {
   };
   const series = () => shown.curves.map(({ name, look: own, curve }, i) => ({
     type: "line", name, symbol: "none", data: curve.at.map((t, k) => [t, curve.value[k]]),
-    lineStyle: { color: own.colour, type: own.dash ?? "solid", width: 1.5 }, itemStyle: { color: own.colour },
+    ...lineStyles({ ...own, width: 1.5 }),
     markArea: i > 0 || shown.limit === null ? undefined
-      : { silent: true, itemStyle: { color: "#009e73", opacity: 0.14 },
+      : { silent: true, itemStyle: { color: "var(--within)" },
           data: [[{ yAxis: -shown.limit }, { yAxis: shown.limit }]] },
   }));
   const tip = (items) => tipOf(`${format(items[0].value[0])} ${over.unit}`,
@@ -37,7 +37,7 @@ function curveChart({ title, note, legend, whole, over }) {
   const option = {
     ...chartBase(() => null),
     grid: { left: 88, right: 26, top: 14, bottom: 48 },
-    tooltip: { trigger: "axis", confine: true, formatter: tip, axisPointer: { animation: false } },
+    tooltip: { trigger: "axis", ...tipLook, formatter: tip, axisPointer: { animation: false } },
     dataZoom: [{ type: "inside", filterMode: "none", zoomOnMouseWheel: "ctrl", moveOnMouseWheel: false }],
   };
   const element = chart({ title, note, legend, option, height: "17rem" });
@@ -71,7 +71,7 @@ function groupCharts(group, quantities, whole) {
       (quantities.some(({ name }) => name === "magnitude")
         ? "; for the magnitude, the length of the difference vector." : "."),
     legend: [{ name: "difference", ...lookOfDifference, dash: "solid" },
-             { name: "limit", text: "within the limit", fill: "#dff2ec" }],
+             { name: "limit", text: "within the limit", fill: "var(--within)" }],
   });
   const choose = (quantity) => {
     const { name, unit, limit } = quantity;
@@ -140,12 +140,13 @@ function drawTraces(part) {
 function drawProfiles(part) {
   const drawn = part.profiles.map(({ title, note, over, last, curves }) => {
     const sides = Object.keys(curves), ends = curves.initial.at;
-    const one = curveChart({ title, note, over: { title: over, unit: "m" }, whole: [ends[0], ends.at(-1)],
+    const chartOf = curveChart({ title, note, over: { title: over, unit: "m" }, whole: [ends[0], ends.at(-1)],
                              legend: sides.map((name) => ({ name, text: name === "last" ? last : name, series: true,
                                                             ...lookOfSurface[name] })) });
-    one.draw({ quantity: "height", unit: "m", limit: null,
-               curves: sides.map((name) => ({ name, look: lookOfSurface[name], curve: curves[name] })) });
-    return one.element;
+    const inMillimetres = ({ at, value }) => ({ at, value: value.map((one) => (isNumber(one) ? 1e3 * one : one)) });
+    chartOf.draw({ quantity: "height", unit: "mm", limit: null, curves: sides.map((name) =>
+      ({ name, look: lookOfSurface[name], curve: inMillimetres(curves[name]) })) });
+    return chartOf.element;
   });
   return [el("p", {}, part.text), el("div", { class: "charts single" }, ...drawn)];
 }

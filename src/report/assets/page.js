@@ -212,7 +212,10 @@ const contents = (sections) =>
 function drawPage(draw) {
   const status = document.documentElement.dataset;
   const main = document.getElementById("page");
-  const resize = () => charts.forEach(({ drawn }) => drawn?.resize());
+  const resize = () => charts.forEach(({ drawn }) => {
+    drawn?.resize();
+    drawn?.getZr().flush();  // at once: paper takes canvases as they are
+  });
   const printing = (on) => () => {
     document.documentElement.classList.toggle("printing", on);
     resize();
@@ -220,6 +223,7 @@ function drawPage(draw) {
   try {
     draw(JSON.parse(document.getElementById("data").textContent), main);
     charts.filter(({ drawn }) => !drawn).forEach((one) => drawChart(one));
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", resize);  // paints canvases anew
     addEventListener("beforeprint", printing(true));
     addEventListener("afterprint", printing(false));
   } catch (error) {

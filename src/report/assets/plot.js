@@ -2,9 +2,15 @@
 // Charts of every page: looks, scales with their ticks, legends and tooltips. The chart library gets text from the data
 // only as text of SVG elements. Tooltips are elements made here.
 
-// Okabe & Ito's palette without its yellow, which is hard to see on white. Each colour has a symbol, so that grey print
+// Colours are names of page.css: charts that stand follow when the page turns dark, or light for a printer. Fills that
+// mean something stay as they are, and so do the inks on them. Each colour of a series has a symbol, so that grey print
 // tells series apart.
-const colours = ["#0072b2", "#d55e00", "#009e73", "#b65c92", "#e69f00", "#3fa7e0", "#333333"];
+const colours = [1, 2, 3, 4, 5, 6, 7].map((i) => `var(--series-${i})`), neutral = colours[6];
+const [darkInk, lightInk] = ["#1d2329", "#ffffff"], outlineColour = "#ff5fb0";
+const verdictLooks = {  // also in grey print from light to dark as from harmless to bad
+  fine: { fill: "#d3e6f2", ink: darkInk }, restless: { fill: "#efb23e", ink: darkInk },
+  worse: { fill: "#7a63b3", ink: lightInk }, lost: { fill: "#ad3a06", ink: lightInk },
+};
 const symbols = [  // outlines in a square of 10
   // A circle of one arc would be drawn, but the pointer would never find it.
   "M5 0a5 5 0 0 1 0 10a5 5 0 0 1 0-10z", "M0 0h10v10h-10z", "M5 0l5.5 10h-11z", "M5 0l5 5-5 5-5-5z",
@@ -28,8 +34,10 @@ function roundTicks(low, high, count = 6) {
   const unit = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].find((m) => m * unit >= raw * 0.999) * unit;
   const ticks = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) ticks.push(k * step);
-  return ticks;
+  const first = Math.ceil(low / step - 1e-9);
+  // Where low and high differ by rounding alone, first + 1 may be first.
+  for (let n = 0; n <= 2 * count && (first + n) * step <= high + 1e-9 * step; n += 1) ticks.push((first + n) * step);
+  return [...new Set(ticks)];
 }
 
 /** Ticks from 10^low to 10^high, with the labelled ones among them. */
@@ -82,7 +90,7 @@ function scaleOf(values, { logarithmic = false, margin = 0.05, title = "", unit 
   const back = (position) => (logarithmic ? 10 ** position : position);
   const axis = axisOf(low, high, withUnit(title, unit), ticks.map(at), labelled.map(at),
                       (position) => tickText(back(position)));
-  axis.splitLine.lineStyle.color = ticks.map((tick) => (labelled.includes(tick) ? "#dde2e6" : "#f1f3f5"));
+  axis.splitLine.lineStyle.color = ticks.map((tick) => (labelled.includes(tick) ? "var(--rule)" : "var(--faint-rule)"));
   return { at, low, high, from: back(low), to: back(high), axis };
 }
 
@@ -97,11 +105,11 @@ function nameScale(names, { title = "" } = {}) {
 /** An axis with ticks, some of which have labels: text(position). */
 const axisOf = (low, high, name, ticks, labelled, text) => ({
   type: "value", min: low, max: high, name, nameLocation: "middle", nameGap: 30,
-  nameTextStyle: { color: "#1d2329", fontSize: 12 },
-  axisLine: { show: true, onZero: false, lineStyle: { color: "#8b969e" } },
+  nameTextStyle: { color: "var(--ink)", fontSize: 12 },
+  axisLine: { show: true, onZero: false, lineStyle: { color: "var(--axis)" } },
   axisTick: { show: true, customValues: ticks, length: 4 },
-  axisLabel: { customValues: labelled, color: "#1d2329", fontSize: 11, hideOverlap: true, formatter: text },
-  splitLine: { lineStyle: { color: "#dde2e6" } },
+  axisLabel: { customValues: labelled, color: "var(--ink)", fontSize: 11, hideOverlap: true, formatter: text },
+  splitLine: { lineStyle: { color: "var(--rule)" } },
 });
 
 // ---- Colours for numbers: from light to dark, so that grey print keeps their order.
@@ -109,7 +117,7 @@ const rampColours = ["#fdf5cc", "#cbe7bf", "#76c5bf", "#3394bd", "#2b60a4", "#22
 /** The colour at a fraction between 0 and 1. */
 const ramp = (fraction) => echarts.color.lerp(Math.min(Math.max(fraction, 0), 1), rampColours);
 /** The colour of text on that colour. */
-const rampInk = (fraction) => (fraction > 0.55 ? "#ffffff" : "#1d2329");
+const rampInk = (fraction) => (fraction > 0.55 ? lightInk : darkInk);
 /** The position of a value on a scale (without margin), as a fraction of the scale. */
 const fractionOf = (scale, value) => (scale.at(value) - scale.low) / (scale.high - scale.low);
 
@@ -122,10 +130,10 @@ function colourBar({ name, low, high, ticks, stops }) {
                el("div", { class: "marks" }, ...marks)));
 }
 
-/** The ramp's colour bar over a scale, from the fraction `from` of the ramp on. */
-function rampBar({ low, high, axis: { name, axisLabel } }, from = 0) {
+/** The ramp's colour bar over a scale; of the ramp, the part between two fractions. */
+function rampBar({ low, high, axis: { name, axisLabel } }, from = 0, to = 1) {
   const ticks = axisLabel.customValues.map((position) => [position, axisLabel.formatter(position)]);
-  const stops = Array.from({ length: 11 }, (_, i) => ramp(from + (1 - from) * (i / 10)));
+  const stops = Array.from({ length: 11 }, (_, i) => ramp(from + (to - from) * (i / 10)));
   return colourBar({ name, low, high, ticks, stops });
 }
 
@@ -142,7 +150,7 @@ function swatch({ colour, symbol, hollow, dash, fill, sign, ink }) {
   };
   const picture = make("svg", { width: fill ? 14 : 26, height: 14, "aria-hidden": "true" });
   if (fill) {
-    picture.append(make("rect", { width: 14, height: 14, rx: 2, fill, stroke: colour ?? "#00000033",
+    picture.append(make("rect", { width: 14, height: 14, rx: 2, fill, stroke: colour ?? "var(--hairline)",
                                   "stroke-width": colour ? 3 : 1 }));
     if (sign) picture.append(
       make("text", { x: 7, y: 11, "text-anchor": "middle", "font-size": 11, fill: ink }, sign));
@@ -189,11 +197,25 @@ function chart({ title, note = null, legend = [], bar = null, option, height = n
             entries.length ? el("ul", { class: "legend" }, ...entries) : null);
 }
 
+// A canvas does not know the names either: it looks them up as it is painted.
+echarts.setPlatformAPI({ createCanvas: () => {
+  const canvas = document.createElement("canvas"), context = canvas.getContext("2d");
+  const values = getComputedStyle(document.documentElement);  // as they are when asked for
+  for (const property of ["fillStyle", "strokeStyle"]) {
+    const { get, set } = Object.getOwnPropertyDescriptor(CanvasRenderingContext2D.prototype, property);
+    const named = (colour) => colour.replace?.(/^var\((.*)\)$/, (_, name) => values.getPropertyValue(name)) ?? colour;
+    Object.defineProperty(context, property, { get: () => get.call(context),
+                                               set: (colour) => set.call(context, named(colour)) });
+  }
+  return canvas;
+} });
+
 function drawChart(one) {
-  one.drawn = echarts.init(one.canvas, null, { renderer: one.renderer });
+  one.drawn = echarts.init(one.canvas, chartTheme, { renderer: one.renderer });
   one.drawn.setOption(one.option);
   if (one.click) one.drawn.on("click", one.click);
-  one.observer = new ResizeObserver(() => one.drawn.resize());
+  // Tools that capture a whole page make its window a pixel wide for a moment: nobody reads that.
+  one.observer = new ResizeObserver(() => one.canvas.clientWidth >= 100 && one.drawn.resize());
   one.observer.observe(one.canvas);
 }
 
@@ -218,12 +240,13 @@ function chartFrame(attributes) {
   };
 }
 
+const tipLook = { confine: true, backgroundColor: "var(--paper)", textStyle: { color: "var(--ink)" } };
 /** The start of every chart's option. `tip(item)` gives the tooltip of the item under the pointer. */
 const chartBase = (tip) => ({
   animation: false,
   textStyle: { fontFamily: "system-ui, -apple-system, 'Segoe UI', Roboto, 'Noto Sans', 'DejaVu Sans', sans-serif" },
   grid: { left: 64, right: 26, top: 14, bottom: 48 },
-  tooltip: { trigger: "item", confine: true, formatter: (item) => tip(item) ?? "" },
+  tooltip: { trigger: "item", ...tipLook, formatter: (item) => tip(item) ?? "" },
 });
 
 /** A tooltip: a heading, and names with their values. */
@@ -233,6 +256,15 @@ const tipOf = (heading, pairs) =>
 
 /** A symbol as the chart library needs it. */
 const outlined = (symbol) => `path://${symbol}`;
+
+// The library lightens what is pointed at, but cannot do so with names of colours: symbols and lines keep theirs.
+const chartTheme = Object.fromEntries(["line", "scatter"].map((type) =>
+  [type, { emphasis: { itemStyle: { color: "inherit" } } }]));
+/** The look of a line with its symbols. */
+const lineStyles = ({ colour, dash = "solid", width = 1.75 }, focus = "none") => ({
+  itemStyle: { color: colour }, lineStyle: { color: colour, type: dash, width },
+  emphasis: { focus, lineStyle: { color: colour } },
+});
 
 /** A line through [x, y], given as the data's values. */
 const lineOf = (name, points, x, y, look, more = {}) => ({
@@ -263,7 +295,7 @@ const cellSeries = (name, cells, look) => ({
     const { fill, sign, ink } = look(cells[params.dataIndex]);
     const shape = rectangle(api);
     const size = Math.min(shape.width, shape.height, 13);
-    const box = { type: "rect", shape, style: { fill, stroke: "#ffffff", lineWidth: size < 7 ? 0 : 0.75 } };
+    const box = { type: "rect", shape, style: { fill, stroke: "var(--paper)", lineWidth: size < 7 ? 0 : 0.75 } };
     if (!sign || size < 7) return box;
     return { type: "group", children: [box, {
       type: "text", silent: true,
@@ -272,13 +304,13 @@ const cellSeries = (name, cells, look) => ({
   },
 });
 
-/** Outlines of cells. */
-const outlineSeries = (name, cells, colour) => ({
+/** Outlines of cells that stand out. */
+const outlineSeries = (name, cells) => ({
   type: "custom", id: name, name, data: cells, progressive: 0, z: 4, silent: true,
   encode: { x: [0, 2], y: [1, 3] },
   renderItem: (params, api) => {
     const outline = (stroke, lineWidth) =>
       ({ type: "rect", shape: rectangle(api), style: { fill: "none", stroke, lineWidth } });
-    return { type: "group", children: [outline("#111111", 5), outline(colour, 2.5)] };
+    return { type: "group", children: [outline(darkInk, 5), outline(outlineColour, 2.5)] };
   },
 });

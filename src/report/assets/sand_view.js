@@ -154,8 +154,10 @@ function sandView(bed, label) {
   canvas.addEventListener("pointerdown", (event) => {
     canvas.focus({ preventScroll: true });
     event.preventDefault();
+    if (event.button === 5) return;  // a pen's eraser: there is nothing to erase
     canvas.setPointerCapture(event.pointerId);  // until it is let go, wherever it goes
-    if (event.button === 0 && !event.shiftKey && pressed.size === 0 && view.drawing?.(event)) return;
+    const mayDraw = pressed.size === 0 || event.pointerType === "touch";
+    if (event.button === 0 && !event.shiftKey && mayDraw && view.drawing?.(event)) return;
     pressed.set(event.pointerId, { x: event.clientX, y: event.clientY, shifts: event.button === 1 });
   });
   canvas.addEventListener("pointermove", (event) => {

@@ -1,5 +1,5 @@
 "use strict";
-// The report of a sweep: what was swept, charts of any metric over any one or two axes, the selected point with its
+// The report of a sweep: what was swept, what matters (sweep_effects.js), charts of any metric over any one or two axes, the selected point with its
 // command line, pictures, and a table of all points. One point is always selected. It gives the values of the axes that
 // a chart does not show.
 
@@ -96,13 +96,17 @@ drawPage((data, main) => {
     return;
   }
   const bad = (n) => (n ? "bad" : "good");
-  main.append(summary(sweep), el("dl", { class: "facts" }, fact("Points", format(counts.points)),
+  main.append(summary(sweep), el("dl", { class: "facts short" }, fact("Points", format(counts.points)),
     fact("Done", format(counts.done)), fact("Failed", format(counts.failed), bad(counts.failed)),
     fact("Missing", format(counts.missing), bad(counts.missing))));
 
-  const few = axes.length < 2 || axes[1].values.length <= 4;
-  const view = { metric: 0, log: false, chart: few ? "lines" : "map", x: 0,
-                 second: axes.length < 2 || latin ? null : 1, at: points[0].at };
+  // At first: the first metric that varies, over the two axes that matter most for it.
+  const metric = Math.max(0, data.effects.findIndex((own) => own.length > 0));
+  const alone = (data.effects[metric] ?? []).filter((one) => one.axes.length === 1).map((one) => one.axes[0]);
+  const [first, next] = [...alone, ...axes.map((_, i) => i).filter((i) => !alone.includes(i))];
+  const few = axes.length < 2 || axes[next].values.length <= 4;
+  const view = { metric, log: false, chart: few ? "lines" : "map", x: first,
+                 second: axes.length < 2 || latin ? null : next, at: points[0].at };
 
   /** Puts the view into the address, so that a link leads back to it. */
   const write = () => {
@@ -162,6 +166,11 @@ drawPage((data, main) => {
                              "aria-label": "Chart: the arrow keys select the next point along its axes" });
   const controls = viewControls(sweep, view, () => redraw(), (axis, i) =>
     selectAt(view.at.map((old, k) => (k === axis ? i : old))));
+  const effects = effectList(sweep, ([x, second = null]) => {
+    view.x = x;
+    view.second = second ?? (view.second === x ? null : view.second);
+    redraw();
+  });
   const detail = detailPanel(sweep), rows = pointTable(sweep, select);
   const pictures = points.some(thumbnailOf) ? gallery(sweep, view, select, keys(() => pictures.focus())) : null;
   let drawn = null;
@@ -175,6 +184,7 @@ drawPage((data, main) => {
   };
   const redraw = () => {
     controls.sync();
+    effects.show(view.metric);
     if (metrics.length > 0) {
       drawn = (latin ? scatterChart : kindOf(view) === "map" ? mapChart : linesChart)(sweep, view);
       chart.show({ ...drawn, click: ({ data }) => data?.point && select(data.point) });
@@ -185,6 +195,7 @@ drawPage((data, main) => {
 
   const reasons = mishaps(points, select);
   if (reasons) main.append(reasons);
+  if (metrics.length > 0) main.append(effects.element);
   main.append(el("div", { class: "explore" },
     el("div", {}, metrics.length > 0 ? el("section", {}, controls.element, chart.element)
                                      : el("p", { class: "quiet" }, "No metrics were collected."),

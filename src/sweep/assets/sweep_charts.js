@@ -5,22 +5,21 @@
 const cross = "M0.5 2l1.5-1.5 3 3 3-3 1.5 1.5-3 3 3 3-1.5 1.5-3-3-3 3-1.5-1.5 3-3z";
 // The look of a verdict in maps. `mark` is its symbol where a point has no value because of it.
 const verdicts = new Map([
-  ["at rest", { fill: "#d3e6f2", sign: "", ink: "#1d2329" }],
-  ["not at rest", { fill: "#efb23e", sign: "~", ink: "#1d2329" }],
-  ["active", { fill: "#7a63b3", sign: "!", ink: "#ffffff" }],
-  ["unstable", { fill: "#ad3a06", sign: "×", ink: "#ffffff", mark: { colour: "#ad3a06", symbol: cross } }],
-  ["refused", { fill: "#9aa3aa", sign: "–", ink: "#1d2329", mark: { colour: "#5b6670", symbol: symbols[1] } }],
-  ["missing", { fill: "#eceff1", sign: "?", ink: "#1d2329",
-                mark: { colour: "#5b6670", symbol: symbols[0], hollow: true } }],
+  ["at rest", { ...verdictLooks.fine, sign: "" }],
+  ["not at rest", { ...verdictLooks.restless, sign: "~" }],
+  ["active", { ...verdictLooks.worse, sign: "!" }],
+  ["unstable", { ...verdictLooks.lost, sign: "×", mark: { colour: "var(--bad)", symbol: cross } }],
+  ["refused", { fill: "#9aa3aa", sign: "–", ink: darkInk, mark: { colour: "var(--quiet)", symbol: symbols[1] } }],
+  ["missing", { fill: "#eceff1", sign: "?", ink: darkInk,
+                mark: { colour: "var(--quiet)", symbol: symbols[0], hollow: true } }],
 ]);
-const noValue = { fill: "#ffffff", sign: "∅", ink: "#1d2329",
-                  mark: { colour: "#5b6670", symbol: symbols[4], hollow: true } };
+const noValue = { fill: lightInk, sign: "∅", ink: darkInk,
+                  mark: { colour: "var(--quiet)", symbol: symbols[4], hollow: true } };
 const lookOfVerdict = (name) => verdicts.get(name) ?? noValue;
 /** Why a point has no value of a metric: its verdict, where that is the reason. */
 const nameWithout = ({ verdict }) => (lookOfVerdict(verdict).mark && verdicts.has(verdict) ? verdict : "no value");
 const lookWithout = (point) => lookOfVerdict(nameWithout(point));
 const isDoubtful = ({ verdict }) => verdict === "not at rest" || verdict === "active";
-const selectedColour = "#ff5fb0";
 const manyItems = 1500;
 
 /** An axis with the position of its i-th value, the order of its values, and their text. */
@@ -55,18 +54,18 @@ function sliceOf({ axes, points, latin }, view) {
 }
 
 /**
- * The basis of all charts of a view: its points, the metric's scale over the whole sweep (so that it stays while other
- * axes move), the tooltip, and the legend of the points without a value.
+ * The basis of all charts of a view: its points, the metric's scale over them (over the whole sweep they may differ by
+ * less than one sees), the tooltip, and the legend of the points without a value.
  */
 function viewOf(sweep, view) {
-  const { axes, metrics, points } = sweep;
+  const { axes, metrics } = sweep;
   const metric = metrics[view.metric];
   const [x, second] = [axes[view.x], axes[view.second]];
   const valueOf = (point) => point.metrics[view.metric] ?? null;
   const { fixed, shown } = sliceOf(sweep, view);
-  const all = points.map(valueOf).filter(isNumber);
+  const values = shown.map(valueOf).filter(isNumber);
   const scaled = (margin) =>
-    scaleOf(all, { logarithmic: view.log, margin, title: metric.title, unit: metric.unit });
+    scaleOf(values, { logarithmic: view.log, margin, title: metric.title, unit: metric.unit });
   const tip = (item) => {
     const point = item.data?.point;
     return point && tipOf(`point ${point.point}: ${point.verdict}`, [
@@ -91,7 +90,7 @@ const marked = ({ name, text, mark }) => ({ name, text, ...mark, dash: "none" })
 
 /** An entry of the legend for hollow symbols, or heavy edges, where there are any. */
 const doubtfulEntry = (points, how) => (points.some(isDoubtful)
-  ? [{ name: "doubtful", text: `${how}: not at rest, or active`, colour: "#333333", symbol: symbols[0], hollow: true,
+  ? [{ name: "doubtful", text: `${how}: not at rest, or active`, colour: neutral, symbol: symbols[0], hollow: true,
        dash: "none" }] : []);
 
 /** Makes room below a scale's values for signs, one above the other. */
@@ -100,7 +99,7 @@ const addGround = (y, signs) => { y.low = y.axis.min -= (y.high - y.low) * (0.02
 /** The ring around the selected point, among symbols. */
 const ring = (data) => ({
   type: "scatter", id: "selected", name: "selected", silent: true, z: 6, data, symbol: outlined(symbols[0]),
-  symbolSize: 17, itemStyle: { color: "none", borderColor: "#111111", borderWidth: 2.5 },
+  symbolSize: 17, itemStyle: { color: "none", borderColor: "var(--ink)", borderWidth: 2.5 },
 });
 
 /** Symbols of points that have no value, at position(point). */
@@ -108,7 +107,7 @@ const signSeries = (points, position, offset = () => 0) =>
   points.map((point) => {
     const { symbol, colour, hollow } = lookWithout(point).mark;
     return { point, value: position(point), symbol: outlined(symbol), symbolOffset: [0, offset(point)],
-             itemStyle: { color: hollow ? "#ffffff" : colour, borderColor: colour, borderWidth: hollow ? 1.75 : 0 } };
+             itemStyle: { color: hollow ? "var(--paper)" : colour, borderColor: colour, borderWidth: hollow ? 1.75 : 0 } };
   });
 
 /** The metric along one axis; a line for each value of a second one. Points without a value lie at the bottom. */
@@ -131,16 +130,16 @@ function linesChart(sweep, view) {
   // Colours of the ramp, where lines have an order and are more than the colours.
   const graded = second?.numeric && families.length > colours.length;
   const bar = graded && families.length > 2 * colours.length;
-  const gradeFrom = 0.22;
-  const grade = (i) => ramp(gradeFrom + (1 - gradeFrom) * (i / (families.length - 1)));
+  const graduation = [0.22, 0.76];  // of the ramp: the rest is lost on light or dark paper
+  const grade = (i) => ramp(graduation[0] + (graduation[1] - graduation[0]) * (i / (families.length - 1)));
   const looks = families.map((_, i) => (graded ? { ...lookOf(i), colour: grade(i), dash: "solid" } : lookOf(i)));
   const symbolSize = shown.length > 400 ? 4 : 8;
   const lines = families.map(({ name, points }, i) => ({
     type: "line", name, symbol: outlined(looks[i].symbol), symbolSize, showAllSymbol: true,
-    lineStyle: { color: looks[i].colour, type: looks[i].dash, width: 1.75 }, itemStyle: { color: looks[i].colour },
+    ...lineStyles(looks[i]),
     data: points.map((point) => ({
       point, value: [xScale.at(point.at[view.x]), y.at(valueOf(point))],
-      ...(isDoubtful(point) ? { itemStyle: { color: "#ffffff", borderColor: looks[i].colour, borderWidth: 2 } } : {}),
+      ...(isDoubtful(point) ? { itemStyle: { color: "var(--paper)", borderColor: looks[i].colour, borderWidth: 2 } } : {}),
     })),
   }));
   const signs = {
@@ -153,7 +152,7 @@ function linesChart(sweep, view) {
   return {
     mark: (point) => [ring(point ? [{ point, ...position(point) }] : [])],
     title: `${metric.title} along ${x.name}`, note, many: shown.length > manyItems,
-    bar: bar ? rampBar(second.scale(0), gradeFrom) : null,
+    bar: bar ? rampBar(second.scale(0), ...graduation) : null,
     legend: [
       ...(second && !bar ? [{ name: `${withUnit(second.name, second.unit)}:` },
                             ...families.map(({ name, text }, i) => ({ name, text, ...looks[i], series: true }))] : []),
@@ -179,14 +178,14 @@ function mapChart(sweep, view) {
     return { fill: ramp(fraction), sign, ink: rampInk(fraction) };
   };
   const doubtful = [...new Set(shown.filter(isDoubtful).map(({ verdict }) => verdict))].map((name) =>
-    ({ name, ...lookOfVerdict(name), fill: "#ffffff", ink: "#1d2329" }));
+    ({ name, ...lookOfVerdict(name), fill: "var(--paper)", ink: "var(--ink)" }));
   return {
-    mark: (point) => [outlineSeries("selected", point ? [cellOf(point)] : [], selectedColour)],
+    mark: (point) => [outlineSeries("selected", point ? [cellOf(point)] : [])],
     title: `${metric.title} over ${x.name} and ${second.name}`, note, many: shown.length > manyItems,
     bar: rampBar(scale), legend: [...doubtful, ...legend], height: "26rem",
     option: { ...chartBase(tip), xAxis: { ...xCells.axis, splitLine: { show: false } },
               yAxis: { ...yCells.axis, nameGap: 46, splitLine: { show: false } },
-              series: [cellSeries("cells", shown.map(cellOf), look), outlineSeries("selected", [], selectedColour)] },
+              series: [cellSeries("cells", shown.map(cellOf), look), outlineSeries("selected", [])] },
   };
 }
 
@@ -202,9 +201,9 @@ function scatterChart(sweep, view) {
   const known = {
     type: "scatter", name: "known", symbolSize: size, symbol: outlined(symbols[0]), progressive: 0,
     data: shown.filter((point) => isNumber(valueOf(point))).map((point) => {
-      const doubtful = isDoubtful(point), fill = doubtful ? "#ffffff" : colours[0];
+      const doubtful = isDoubtful(point), fill = doubtful ? "var(--paper)" : colours[0];
       return { point, value: position(point), itemStyle: colour
-        ? { color: ramp(fractionOf(colour, valueOf(point))), borderColor: doubtful ? "#111111" : "#5b6670",
+        ? { color: ramp(fractionOf(colour, valueOf(point))), borderColor: doubtful ? "var(--ink)" : "var(--quiet)",
             borderWidth: doubtful ? 2.25 : 0.75, opacity: 1 }
         : { color: fill, borderColor: colours[0], borderWidth: doubtful ? 2 : 0 } };
     }),
