@@ -40,6 +40,13 @@ std::vector<std::string> words_of(const std::string& line) {
   return {std::istream_iterator<std::string>(text), {}};
 }
 
+[[noreturn]] void throw_no_ffmpeg(const fs::path& path) {
+  throw_io_error(
+      "{}: films need the program ffmpeg, which is not installed; install it (Debian: apt-get install "
+      "ffmpeg), or leave out --video to get single pictures",
+      path.string());
+}
+
 FedChild start_ffmpeg(const fs::path& path, int width, int height, double rate) {
   const FilmFormat& format = format_of(path);
   if (format.ending != ".gif" && (width % 2 || height % 2))
@@ -54,11 +61,7 @@ FedChild start_ffmpeg(const fs::path& path, int width, int height, double rate) 
   // "file:": otherwise a name with a colon would be a protocol's, and one with a dash an option.
   words.push_back("file:" + part_path(path).string());
   std::optional<FedChild> ffmpeg = FedChild::start(words);
-  if (!ffmpeg)
-    throw_io_error(
-        "{}: films need the program ffmpeg, which is not installed; install it (Debian: apt-get install "
-        "ffmpeg), or leave out --video to get single pictures",
-        path.string());
+  if (!ffmpeg) throw_no_ffmpeg(path);
   return std::move(*ffmpeg);
 }
 
@@ -71,6 +74,10 @@ std::vector<std::string> film_endings() {
 }
 
 void check_film_name(const fs::path& path) { format_of(path); }
+
+void check_film_program(const fs::path& path) {
+  if (!is_installed("ffmpeg")) throw_no_ffmpeg(path);
+}
 
 FilmWriter::Part::~Part() {
   if (!keep) drop_part(path);

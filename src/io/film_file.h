@@ -19,6 +19,8 @@ std::vector<std::string> film_endings();
 
 /// Error: input, if the name has none of these endings.
 void check_film_name(const std::filesystem::path& path);
+/// Before a run that ends in a film. Error: io, if ffmpeg is missing.
+void check_film_program(const std::filesystem::path& path);
 
 /// Writes a film, picture by picture, through the program ffmpeg. It keeps no picture. The film is PATH.part
 /// until it is complete. An unfinished film leaves no file.

@@ -31,7 +31,7 @@ constexpr ColumnText column_texts[] = {
      "sum of: 1 read over half a tick late, 2 ticks before it are missing, 4 force cut to the limit, 8 force "
      "fading in, 16 change of force limited, 32 force was not a number and not given, 64 tool did not "
      "displace sand because relaxation was late, 128 no force given because the tool had not been out of the "
-     "sand before"},
+     "sand before, 256 the force is the model's and no hand felt it"},
     {"contact", "", "pen: 0 is up, 1 is down, 2 lifts right after this sample"},
 };
 

@@ -2,7 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -14,7 +14,6 @@
 namespace sandstroke {
 namespace {
 
-constexpr Rgb ink = {34, 34, 38};
 constexpr Rgb paper = {246, 246, 244};
 
 void blend(std::uint8_t* pixel, const Rgb& rgb, double opacity) {
@@ -73,25 +72,26 @@ double annotation_cap_height(int image_height) { return std::max(8.5, 0.0185 * i
 
 double text_width(double cap_height, std::string_view text) { return cap_height * hershey_text(text).width; }
 
-void draw_text(Image& image, double x, double y, double cap_height, std::string_view text, Rgb rgb) {
-  const SingleStrokeText strokes = hershey_text(text);
-  const double half_pen = 0.5 * std::max(1.15, 0.11 * cap_height);
-  const double reach = half_pen + 0.5;
-  // Coverage is collected first, so that pixels where strokes meet are not painted twice. Letters reach half
-  // a capital below the base line (brackets, y) and a little above the capitals.
-  const int left = std::max(0, static_cast<int>(std::floor(x - reach - 0.5 * cap_height)));
-  const int right =
-      std::min(image.width, static_cast<int>(std::ceil(x + strokes.width * cap_height + reach)) + 1);
-  const int top = std::max(0, static_cast<int>(std::floor(y - 1.5 * cap_height - reach)));
-  const int bottom = std::min(image.height, static_cast<int>(std::ceil(y + 0.6 * cap_height + reach)) + 1);
+void draw_lines(Image& image, const std::vector<std::vector<Eigen::Vector2d>>& lines, double half_width,
+                Rgb rgb) {
+  const double reach = half_width + 0.5;
+  Eigen::AlignedBox2d around;
+  for (const auto& line : lines)
+    for (const Eigen::Vector2d& point : line) around.extend(point);
+  if (around.isEmpty()) return;
+  // Coverage is collected first, so that pixels where strokes meet are not painted twice.
+  const auto pixel = [](double at, int pixels) {
+    return static_cast<int>(std::clamp(at, 0.0, 1.0 * pixels));
+  };
+  const int left = pixel(std::floor(around.min().x() - reach), image.width),
+            right = pixel(std::ceil(around.max().x() + reach) + 1.0, image.width),
+            top = pixel(std::floor(around.min().y() - reach), image.height),
+            bottom = pixel(std::ceil(around.max().y() + reach) + 1.0, image.height);
   if (left >= right || top >= bottom) return;
   Eigen::ArrayXXd coverage = Eigen::ArrayXXd::Zero(bottom - top, right - left);
-  const auto on_image = [&](const Eigen::Vector2d& p) {
-    return Eigen::Vector2d(x + cap_height * p.x(), y - cap_height * p.y());
-  };
-  for (const auto& line : strokes.polylines) {
+  for (const auto& line : lines) {
     for (std::size_t i = 0; i < line.size(); ++i) {
-      const Eigen::Vector2d a = on_image(line[i]), b = on_image(line[std::min(i + 1, line.size() - 1)]);
+      const Eigen::Vector2d a = line[i], b = line[std::min(i + 1, line.size() - 1)];
       const Eigen::Vector2d low = a.cwiseMin(b).array() - reach, high = a.cwiseMax(b).array() + reach;
       for (int row = std::max(top, static_cast<int>(low.y())); row < std::min<double>(bottom, high.y());
            ++row) {
@@ -109,6 +109,13 @@ void draw_text(Image& image, double x, double y, double cap_height, std::string_
       blend(image.pixel(col, row), rgb, coverage(row - top, col - left));
 }
 
+void draw_text(Image& image, double x, double y, double cap_height, std::string_view text, Rgb rgb) {
+  std::vector<std::vector<Eigen::Vector2d>> lines = hershey_text(text).polylines;
+  for (auto& line : lines)
+    for (Eigen::Vector2d& p : line) p = Eigen::Vector2d(x + cap_height * p.x(), y - cap_height * p.y());
+  draw_lines(image, lines, 0.5 * std::max(1.15, 0.11 * cap_height), rgb);
+}
+
 int legend_width(const Legend& legend, int image_height) {
   return static_cast<int>(std::ceil(LegendLayout(legend, image_height).usual_width));
 }
@@ -122,7 +129,7 @@ void draw_legend(Image& image, const Legend& legend) {
     return bottom - (value - legend.low) / (legend.high - legend.low) * (bottom - top);
   };
   fill_rectangle(image, image.width - layout.width(), 0.0, image.width, image.height, paper, 0.86);
-  draw_text(image, left, 2.1 * cap, cap, layout.title, ink);
+  draw_text(image, left, 2.1 * cap, cap, layout.title, annotation_ink);
 
   for (int y = static_cast<int>(top); y < static_cast<int>(bottom); ++y) {
     const double value = legend.low + (bottom - y - 0.5) / (bottom - top) * (legend.high - legend.low);
@@ -135,14 +142,15 @@ void draw_legend(Image& image, const Legend& legend) {
     for (double k = std::ceil(legend.low / legend.contour_interval);
          k * legend.contour_interval <= legend.high; ++k) {
       const double y = y_at(k * legend.contour_interval);
-      fill_rectangle(image, left, y - 0.5 * line, left + layout.bar_width, y + 0.5 * line, ink, 0.55);
+      fill_rectangle(image, left, y - 0.5 * line, left + layout.bar_width, y + 0.5 * line, annotation_ink,
+                     0.55);
     }
   }
   const double right = left + layout.bar_width;
   for (const ScaleTick& tick : layout.ticks) {
     const double y = y_at(tick.value);
-    fill_rectangle(image, right, y - 0.5 * line, right + layout.tick_length, y + 0.5 * line, ink);
-    draw_text(image, right + 1.8 * layout.tick_length, y + 0.5 * cap, cap, tick.label, ink);
+    fill_rectangle(image, right, y - 0.5 * line, right + layout.tick_length, y + 0.5 * line, annotation_ink);
+    draw_text(image, right + 1.8 * layout.tick_length, y + 0.5 * cap, cap, tick.label, annotation_ink);
   }
 }
 

@@ -1,12 +1,21 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "picture/image.h"
 #include "render/colour_map.h"
 
 namespace sandstroke {
+
+inline constexpr Rgb annotation_ink = {34, 34, 38};
+
+/// Draws anti-aliased lines through points, in pixels from the upper left corner. A line of one point is a
+/// dot. What lies outside the image is cut off.
+void draw_lines(Image& image, const std::vector<std::vector<Eigen::Vector2d>>& lines, double half_width,
+                Rgb rgb);
 
 /// Draws a line of ASCII text with anti-aliased single strokes. x, y: left end of the base line in pixels, y
 /// down; cap_height: of capital letters, in pixels. What lies outside the image is cut off.

@@ -28,20 +28,43 @@ Eigen::Matrix3d camera_axes(double azimuth, double elevation) {
   return axes;
 }
 
-/// One pair of opposite frustum planes, pushed against the subject. An eye at `depth` (along the backward
-/// axis) sees all of the subject from anywhere between low - slope_high depth and high + slope_low depth.
+/// One pair of opposite frustum planes around the subject. slope_low, slope_high: tangents of the angles
+/// between the way ahead and the borders that the subject must stay within.
 struct Fit {
-  double low, high, slope_low, slope_high;
-  Fit(const std::array<Eigen::Vector3d, 8>& points, int across, double slope_low_side, double slope_high_side)
-      : low(-1e300), high(1e300), slope_low(slope_low_side), slope_high(slope_high_side) {
+  const std::array<Eigen::Vector3d, 8>& points;
+  int across;  ///< 0: to the right, 1: up
+  double slope_low, slope_high;
+
+  /// The least depth (along the backward axis) from which an eye sees all of the subject.
+  double least_depth() const {
+    double low = -1e300, high = 1e300;
     for (const Eigen::Vector3d& p : points) {
       low = std::max(low, p(across) + slope_high * p.z());
       high = std::min(high, p(across) - slope_low * p.z());
     }
+    return (low - high) / (slope_low + slope_high);
   }
-  double least_depth() const { return (low - high) / (slope_low + slope_high); }
+  /// Where an eye at this depth, from which the subject fits, leaves as much of the picture free on both
+  /// sides of the subject. That is not the middle of all places from where it is seen: what is near takes
+  /// more of the picture.
   double centred(double depth) const {
-    return 0.5 * ((low - slope_high * depth) + (high + slope_low * depth));
+    const auto distance = [&](const Eigen::Vector3d& p) { return std::max(depth - p.z(), 1e-9); };
+    double from = 1e300, to = -1e300;  // from here all is beyond one border, from there beyond the other
+    for (const Eigen::Vector3d& p : points) {
+      from = std::min(from, p(across) - slope_high * distance(p));
+      to = std::max(to, p(across) + slope_low * distance(p));
+    }
+    for (int halving = 0; halving < 100; ++halving) {
+      const double eye = 0.5 * (from + to);
+      double least = 1e300, most = -1e300;
+      for (const Eigen::Vector3d& p : points) {
+        const double slope = (p(across) - eye) / distance(p);
+        least = std::min(least, slope);
+        most = std::max(most, slope);
+      }
+      (least + slope_low > slope_high - most ? from : to) = eye;
+    }
+    return 0.5 * (from + to);
   }
 };
 
@@ -162,15 +185,21 @@ Camera make_camera(const ViewSettings& view, const Eigen::AlignedBox3d& subject,
     projection(0, 0) = 1.0 / half_width;
     projection(1, 1) = 1.0 / half_height;
   } else {
-    const Fit across(points, 0, tan_x * inside, tan_x * inside_right),
-        up(points, 1, tan_y * inside, tan_y * inside);
+    const Fit across{points, 0, tan_x * inside, tan_x * inside_right},
+        up{points, 1, tan_y * inside, tan_y * inside};
     const double centre = in_camera.center().z(), fitting = std::max(across.least_depth(), up.least_depth());
     const double distance = view.distance > 0.0 ? view.distance : fitting - centre;
     if (view.name == ViewName::custom) {
       camera.eye = view.target - camera.forward * distance;
     } else {
       const double depth = centre + distance;
-      camera.eye = axes.transpose() * Eigen::Vector3d(across.centred(depth), up.centred(depth), depth);
+      // Nearer than from where the subject fits the eye goes straight at its middle.
+      const double part = depth < fitting ? (depth - centre) / (fitting - centre) : 1.0;
+      const auto eye_at = [&](const Fit& fit) {
+        const double middle = in_camera.center()(fit.across);
+        return middle + part * (fit.centred(std::max(depth, fitting)) - middle);
+      };
+      camera.eye = axes.transpose() * Eigen::Vector3d(eye_at(across), eye_at(up), depth);
     }
     camera.scale = 0.5 * view.height / tan_y;
     projection(0, 0) = 1.0 / tan_x;

@@ -13,6 +13,7 @@
 #include "render/framebuffer.h"
 #include "render/redraw.h"
 #include "render/round_scale.h"
+#include "render/scale_bar.h"
 #include "render/shaders.h"
 #include "render/surface_textures.h"
 #include "render/tile_mesh.h"
@@ -214,7 +215,7 @@ Camera HeightFieldRenderer::Drawing::camera_for(const RenderSubject& subject, co
   scene.extend(framed.max() + 0.25 * side * Eigen::Vector3d::UnitZ());
   scene.extend(box_over(bed_, bed_.cells(), surface_.lowest(), surface_.highest()));
   if (subject.view.name == ViewName::stroke) {
-    const CellRange cells = framed_cells(subject.focus, bed_.rows(), bed_.cols(), bed_.cell_size(), 0.03);
+    const CellRange cells = framed_cells(subject.focus, bed_.rows(), bed_.cols(), bed_.cell_size(), 0.02);
     framed = box_over(bed_, cells, start.lowest, start.highest);
   }
   if (subject.tool) scene.extend(subject.tool->box());
@@ -235,7 +236,9 @@ void HeightFieldRenderer::Drawing::draw_map(const RenderSubject& subject, const 
   map_.set("colours", 3);
   map_.set("range", Eigen::Vector2d(legend.low, legend.high));
   map_.set("contour_interval", legend.contour_interval);
-  map_.set("relief", subject.view.name == ViewName::top ? 0.0 : 1.0);
+  // On a map from above, and of differences, a colour must mean one value.
+  const bool flat = subject.view.name == ViewName::top || subject.view.style == RenderStyle::difference;
+  map_.set("relief", flat ? 0.0 : 1.0);
   SurfaceTextures& shown = subject.view.style == RenderStyle::difference ? *difference_ : surface_;
   shown.bind_filtered_heights(2);
   glActiveTexture(GL_TEXTURE3);
@@ -302,7 +305,10 @@ Image HeightFieldRenderer::Drawing::render(const HeightField& surface, const Ren
   if (!pixels_.empty()) draw(subject, legend, camera, sun);
   drawn_ = std::move(now);
   Image image = image_;
-  if (legend) draw_legend(image, *legend);
+  if (!legend) return image;
+  draw_legend(image, *legend);
+  if (const std::optional<ScaleBar> bar = scale_bar(camera, box_.bounds(), view.width, view.height))
+    draw_scale_bar(image, *bar);
   return image;
 }
 

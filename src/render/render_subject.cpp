@@ -17,7 +17,7 @@ Eigen::AlignedBox3d ToolBody::box() const {
 CellRange framed_cells(const CellRange& focus, int rows, int cols, double cell_size, double margin) {
   if (focus.empty()) return {0, rows, 0, cols};
   const int larger = std::max(focus.rows(), focus.cols());
-  const int grow = static_cast<int>(std::ceil(std::max(0.1 * larger, margin / cell_size)));
+  const int grow = static_cast<int>(std::ceil(std::max(0.05 * larger, margin / cell_size)));
   return {std::max(0, focus.row_begin - grow), std::min(rows, focus.row_end + grow),
           std::max(0, focus.col_begin - grow), std::min(cols, focus.col_end + grow)};
 }

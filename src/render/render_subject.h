@@ -52,7 +52,7 @@ struct RenderSubject {
 };
 
 /// The cells that a close-up of a stroke frames: those of `focus` (of the whole bed where it is empty), grown
-/// by a tenth and at least by `margin` [m], cut to the bed.
+/// by a twentieth and at least by `margin` [m], cut to the bed.
 CellRange framed_cells(const CellRange& focus, int rows, int cols, double cell_size, double margin);
 
 /// The cells under a tool [radius, m] at those of the positions `tips` that are below `highest` [m]; empty

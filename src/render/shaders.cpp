@@ -53,9 +53,10 @@ vec2 texture_position() { return (world.xy / cell_size + bed_origin + 0.5) / vec
 // Metres per pixel, along the longer side of the pixel's footprint.
 float pixel_footprint() { return max(length(dFdx(world.xy)), length(dFdy(world.xy))); }
 // A texture's mean over a pixel.
-vec4 mean_over(sampler2D field, float pixel) {
-  return textureLod(field, texture_position(), log2(max(pixel / cell_size, 1.0)));
+vec4 mean_at(sampler2D field, vec2 position, float pixel) {
+  return textureLod(field, position, log2(max(pixel / cell_size, 1.0)));
 }
+vec4 mean_over(sampler2D field, float pixel) { return mean_at(field, texture_position(), pixel); }
 )";
 
 }  // namespace
@@ -154,16 +155,20 @@ float rough_diffuse(vec3 normal, vec3 from_sun, vec3 to_viewer) {
 }
 
 void main() {
-  float pixel = pixel_footprint();
+  float pixel = pixel_footprint(), footprint = max(length(dFdx(world)), length(dFdy(world)));  // the height's part in it
   vec4 here = mean_over(shading, min(pixel, widest_pixel));
   if (beyond_wall()) {
     vec3 received = sun_colour * 0.9 * sun_direction.z + ambient(vec3(0.0, 0.0, 1.0));
     colour = vec4(tone(vec3(0.27, 0.155, 0.085) * received), 1.0);
     return;
   }
-  vec3 grains = grain(world.xy, pixel);
-  vec3 ground = normalize(vec3(-here.xy, 1.0));
-  vec3 normal = normalize(vec3(-here.xy - grains.yz, 1.0));
+  vec3 upward = vec3(-here.xy, 1.0), ground = normalize(upward);
+  // Noise that is looked up from above makes streaks on steep faces. There the lookup moves on with the height, too.
+  float steep = 1.0 - smoothstep(0.5, 0.7, ground.z);
+  vec2 uphill = -steep * ground.xy / max(length(ground.xy), 1e-6);
+  vec3 grains = grain(world.xy + world.z * uphill, mix(pixel, footprint, steep));
+  vec3 relief = vec3(grains.yz, dot(grains.yz, uphill));
+  vec3 normal = normalize(upward - mix(1.0, length(upward), steep) * relief);
   vec2 part = here.zw * past_tool(world, ground);
 
   vec3 albedo = sand_albedo(world.z) * max(1.0 + grains.x, 0.1);
@@ -204,14 +209,19 @@ void main() {
   float shade = (fill + max(dot(normal, sun_direction), 0.0)) / (fill + sun_direction.z);
   mapped *= mix(1.0, clamp(shade, 0.35, 1.25), relief);
 
-  // A contour line: one and a half pixels wide, from the value's change per pixel. There is no line where the change
-  // is almost zero (a plane at the height of a line), or so large that lines would touch.
+  // A contour line: one and a half pixels wide, from the value's change per pixel. There is no line where the value does
+  // not go through the line's (the foot of a heap on a plane at that height), or changes so much that lines would touch.
   vec2 change = slope_of(values, pixel);
   float per_pixel = length(vec2(dot(change, dFdx(world.xy)), dot(change, dFdy(world.xy))));
-  float away = abs(value / contour_interval - round(value / contour_interval)) * contour_interval;
-  float line = 1.0 - smoothstep(0.4, 1.3, away / max(per_pixel, 1e-30));
-  line *= smoothstep(0.0005, 0.002, per_pixel / contour_interval);
+  float at = round(value / contour_interval) * contour_interval;
+  float line = 1.0 - smoothstep(0.4, 1.3, abs(value - at) / max(per_pixel, 1e-30));
   line *= 1.0 - smoothstep(0.15, 0.4, per_pixel / contour_interval);
+  if (line > 0.0) {
+    vec2 uphill = 1.5 * pixel * change / (max(length(change), 1e-15) * cell_size * vec2(cells));
+    float above = mean_at(values, texture_position() + uphill, pixel).r - at;
+    float below = at - mean_at(values, texture_position() - uphill, pixel).r;
+    line *= smoothstep(0.0005, 0.002, min(above, below) / contour_interval);
+  }
   bool dark = dot(mapped, vec3(0.3, 0.6, 0.1)) < 0.35;
   if (beyond_wall()) mapped = vec3(0.8), line = 0.0;
   colour = vec4(mix(mapped, vec3(dark ? 0.85 : 0.05), 0.6 * line), 1.0);

@@ -116,7 +116,7 @@ TEST_F(RecordingFile, SaysOfEachColumnWhatItIsAndInWhichUnit) {
       EXPECT_FALSE(file.text_attribute(column, "long_name").empty()) << name;
       EXPECT_EQ(file.has_attribute(column, "units") ? file.text_attribute(column, "units") : "", unit);
     }
-    for (std::uint32_t flag = late_sample; flag <= interlocked_force; flag *= 2)
+    for (std::uint32_t flag = late_sample; flag <= unfelt_force; flag *= 2)
       EXPECT_THAT(file.text_attribute("/stroke/flags", "long_name"), HasSubstr(fmt::format(" {} ", flag)));
   }
 }

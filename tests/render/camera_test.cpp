@@ -49,6 +49,36 @@ TEST(Camera, OverviewFramesTheSubjectTightlyFromEveryAngle) {
   }
 }
 
+TEST(Camera, LeavesAsMuchFreeAboveAsBelowAndLeftAsRight) {
+  const Eigen::AlignedBox3d wide(Eigen::Vector3d(-0.6, -0.2, -0.01), Eigen::Vector3d(0.7, 0.1, 0.01));
+  for (const double azimuth : {-100.0, -75.0, 0.0, 45.0})
+    for (const double distance : {0.0, 2.5, 5.0})
+      for (const double margin : {0.0, 0.15}) {
+        ViewSettings view;
+        view.name = ViewName::stroke;
+        view.azimuth = azimuth;
+        view.elevation = 38.0;
+        view.distance = distance;
+        const Extent e = extent(make_camera(view, wide, bed, margin), wide);
+        EXPECT_NEAR(e.low, -e.high, 1e-9) << azimuth << " " << distance;
+        EXPECT_NEAR(e.left, -e.right - 2.0 * margin, 1e-9) << azimuth << " " << distance;
+      }
+}
+
+TEST(Camera, GoesStraightAtTheSubjectFromWhereItFits) {
+  ViewSettings view;
+  view.name = ViewName::overview;
+  const Camera fits = make_camera(view, bed, bed);
+  const double whole = (fits.eye - bed.center()).dot(-fits.forward);
+  view.distance = whole;
+  EXPECT_LT((make_camera(view, bed, bed).eye - fits.eye).norm(), 1e-9);
+  for (const double part : {0.999, 0.6, 0.3, 0.1}) {
+    view.distance = part * whole;
+    const Camera nearer = make_camera(view, bed, bed);
+    EXPECT_LT((nearer.eye - (bed.center() + part * (fits.eye - bed.center()))).norm(), 1e-9) << part;
+  }
+}
+
 TEST(Camera, LeavesTheRightMarginFree) {
   ViewSettings view;
   for (const ViewName name : {ViewName::overview, ViewName::top}) {

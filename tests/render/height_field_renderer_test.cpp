@@ -282,6 +282,31 @@ TEST(HeightFieldRenderer, FurrowsCastAndCatchLight) {
   EXPECT_GT(red(0.005), red(-0.005) + 60);  // the one across is lit
 }
 
+TEST(HeightFieldRenderer, GrainsOfASteepFaceAreNoStreaks) {
+  for (const double degrees : {50.0, 55.0, 60.0, 70.0, 89.0}) {
+    SCOPED_TRACE(degrees);
+    HeightGrid heights = HeightGrid::Zero(128, 128);
+    for (int row = 0; row < 128; ++row)  // a face up to 30 mm
+      heights.row(row) =
+          std::clamp(0.015 + (row - 63.5) * 0.0005 * std::tan(degrees * pi / 180.0), 0.0, 0.03);
+    RenderSubject subject = small_picture(RenderStyle::sand, ViewName::custom);
+    subject.view.azimuth = subject.view.light_azimuth = -90.0;
+    subject.view.elevation = 10.0;
+    subject.view.distance = 0.05;
+    subject.box = false;
+    subject.view.target = {0.0, 0.0, 0.015};
+    const Image image = fresh_picture(HeightField(heights, 0.0005), subject);
+    double along = 0.0, upward = 0.0;  // what changes between pixels side by side, and one above the other
+    for (int y = 50; y < 130; ++y)     // 180 pixels show 31 mm
+      for (int x = 60; x < 260; ++x) {
+        along += std::abs(image.pixel(x + 1, y)[0] - image.pixel(x, y)[0]);
+        upward += std::abs(image.pixel(x, y + 1)[0] - image.pixel(x, y)[0]);
+      }
+    EXPECT_GT(along, 0.25 * 200 * 80) << "grains are to be seen";
+    EXPECT_GT(upward, 0.5 * along);
+  }
+}
+
 TEST(HeightFieldRenderer, MapColoursAreThoseOfTheLegend) {
   for (const double value : {0.1, 0.35, 0.8}) {
     RenderSubject subject = small_picture(RenderStyle::height, ViewName::top);
@@ -337,6 +362,26 @@ TEST(HeightFieldRenderer, PlaneAtTheHeightOfALineHasNone) {
   subject.contour_interval = 0.5;
   const Image image = fresh_picture(HeightField(64, 64, 0.05), subject);
   for (int x = 80; x < 160; ++x) EXPECT_EQ(image.pixel(x, 90)[1], image.pixel(120, 90)[1]);
+}
+
+TEST(HeightFieldRenderer, FootOfAHeapOnSuchAPlaneHasNone) {
+  const int n = 128;
+  HeightGrid difference(n, n);
+  for (int row = 0; row < n; ++row)
+    for (int col = 0; col < n; ++col)
+      difference(row, col) = std::max(0.0, 0.4 - 0.8 * std::hypot(col - 63.5, row - 63.5) / 40.0);
+  RenderSubject subject = small_picture(RenderStyle::difference, ViewName::top);
+  subject.view.width = 640;
+  subject.view.height = 360;
+  subject.difference = &difference;
+  subject.range = ValueRange{-0.5, 0.5};
+  subject.contour_interval = 1.0;  // so the only line would be that of the plane
+  const Image image = fresh_picture(HeightField(n, n, 0.01), subject);
+  // Along the map's middle row the colour changes steadily, from the foot to the top and to the other foot.
+  const auto green = [&](int x) { return static_cast<int>(image.pixel(x, 180)[1]); };
+  for (int x = 105; x < 258; ++x) EXPECT_GE(green(x), green(x + 1)) << x;
+  for (int x = 262; x < 414; ++x) EXPECT_LE(green(x), green(x + 1)) << x;
+  EXPECT_LT(green(260), green(105) - 100);
 }
 
 TEST(HeightFieldRenderer, ToolIsDrawnAndThrowsItsShadowAwayFromTheSun) {

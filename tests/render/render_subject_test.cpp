@@ -8,11 +8,11 @@ namespace sandstroke {
 namespace {
 
 TEST(RenderSubject, FramesTheFocusWithAMarginInsideTheBed) {
-  const CellRange range = framed_cells({50, 60, 2, 42}, 100, 200, 0.01, 0.03);
-  EXPECT_EQ(range.row_begin, 46);  // a tenth of 40 cells is more than 3 cm
+  const CellRange range = framed_cells({50, 60, 2, 82}, 100, 200, 0.01, 0.03);
+  EXPECT_EQ(range.row_begin, 46);  // a twentieth of 80 cells is more than 3 cm
   EXPECT_EQ(range.row_end, 64);
   EXPECT_EQ(range.col_begin, 0);
-  EXPECT_EQ(range.col_end, 46);
+  EXPECT_EQ(range.col_end, 86);
   EXPECT_EQ(framed_cells({50, 51, 50, 51}, 100, 200, 0.01, 0.03).row_begin, 47);
 }
 
