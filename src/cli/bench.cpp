@@ -11,6 +11,7 @@
 #include "core/progress.h"
 #include "validation/study/plugin_contenders.h"
 #include "validation/study/study_files.h"
+#include "validation/study/study_summary.h"
 #include "validation/study/study_table.h"
 
 namespace sandstroke {

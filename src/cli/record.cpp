@@ -62,9 +62,15 @@ RecorderSettings recorder_settings(const RecordArguments& arguments, const std::
   RecorderSettings settings = arguments.settings;
   settings.servo.rate = servo_rate(arguments, felt);
   if (arguments.duration > 0.0) settings.servo.duration = arguments.duration;
-  if (arguments.device == pointer_name) settings.servo.stop_switch = PointerSample::finish_switch;
+  if (arguments.device == pointer_name) {
+    settings.servo.stop_switch = PointerSample::finish_switch;
+    settings.servo.switch_reason = StopReason::finish;
+  }
   if (arguments.start_switch >= 0) settings.servo.start.start_switch = arguments.start_switch;
-  if (arguments.stop_switch >= 0) settings.servo.stop_switch = arguments.stop_switch;
+  if (arguments.stop_switch >= 0) {
+    settings.servo.stop_switch = arguments.stop_switch;
+    settings.servo.switch_reason = StopReason::stop_switch;
+  }
   if (arguments.view) settings.watch = picture_interval;
   settings.lock_memory = !arguments.no_memory_lock;
   if (!felt) settings.servo.force.max_force = 0.0;  // without sand there is no force

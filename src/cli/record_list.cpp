@@ -14,7 +14,8 @@ struct StandIn {
   const char *name, *help;
 };
 constexpr StandIn stand_ins[] = {
-    {"pointer", "mouse, pen or finger in a page that shows the sand of --feel; no force"},
+    {"pointer",
+     "mouse, pen or finger in a page that shows the sand of --feel, and the force that a device would give"},
     {"scripted:FILE.toml", "plays a scripted stroke in real time; forces do not move it"},
     {"replay:FILE.h5", "plays a recorded stroke in real time; forces do not move it"},
 };

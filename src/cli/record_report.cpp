@@ -7,8 +7,10 @@
 namespace sandstroke {
 namespace {
 
-std::string force_text(double limit, const TickCounts& ticks) {
+std::string force_text(const RecordingHeader& header, const TickCounts& ticks) {
+  const double limit = header.force_limit;
   if (limit == 0.0) return "none";
+  if (!header.device.hand_feels) return "the model's, which a device would give; no hand felt it";
   std::string text = limit < any_force ? fmt::format("up to {:.3g} N", limit) : "no limit";
   if (ticks.interlocked > 0)
     text += fmt::format("; none in {} ticks, until the tool was lifted out of the sand", ticks.interlocked);
@@ -82,7 +84,7 @@ void print_recording(const RecordingReport& report, const std::optional<LiveSand
   print_row("ticks", ticks_text(footer.ticks));
   print_row("lateness", lateness_text(footer));
   print_row("scheduling", scheduling_text(header.scheduling));
-  print_row("force", force_text(header.force_limit, footer.ticks));
+  print_row("force", force_text(header, footer.ticks));
   if (felt) print_row("sand", sand_text(*felt));
 }
 

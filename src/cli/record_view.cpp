@@ -42,9 +42,4 @@ void RecordView::show(const ServoProgress& progress) {
   state_.say(hint_of(progress));
 }
 
-void RecordView::end(const std::string& reason) {
-  bed_.publish(sand_->relaxed_bed());
-  server_.end(reason);
-}
-
 }  // namespace sandstroke

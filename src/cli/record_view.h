@@ -24,8 +24,8 @@ class RecordView {
   void follow(LiveSand& sand);
   /// Shows the progress of the recording.
   void show(const ServoProgress& progress);
-  /// Call it when the sand is finished.
-  void end(const std::string& reason);
+  /// Call it when the sand is finished, which shows it a last time.
+  void end(const std::string& reason) { server_.end(reason); }
 
  private:
   LiveBed bed_;

@@ -132,6 +132,7 @@ void check_outputs(const RunArguments& arguments, const SceneFile& scene, const 
   check(arguments.video, film_output);
   if (scene.output.frames == 0.0)
     throw_input_error("--video needs frames, and this run keeps none; add --frames 10");
+  check_film_program(arguments.video);
 }
 
 RunOptions options_of(const RunArguments& arguments) {
@@ -183,7 +184,7 @@ int run(const RunArguments& arguments) {
   RunOptions options = options_of(arguments);
   std::optional<RunView> view;
   if (arguments.view)
-    options.onlooker = [&](const Simulation& simulation) -> SimulationObserver& {
+    options.onlooker = [&](Simulation& simulation) -> SimulationObserver& {
       return view.emplace(simulation, fs::path(output).filename().string(), !arguments.no_open);
     };
   RunResult result = run_scene(scene, output, options);

@@ -17,7 +17,7 @@ void sleep(double seconds) { std::this_thread::sleep_for(std::chrono::duration<d
 
 }  // namespace
 
-RunView::RunView(const Simulation& simulation, const std::string& title, bool opens)
+RunView::RunView(Simulation& simulation, const std::string& title, bool opens)
     : simulation_(simulation),
       bed_(simulation.bed()),
       server_({bed_, shown_,
@@ -64,7 +64,7 @@ void RunView::publish(const TickRecord& tick) {
   shown_.publish(state_);
   if (state_.lateness > late) shown_.say("the run is slower than real time");
   if (state_.lateness < nearly_in_time) shown_.say("");
-  bed_.publish(simulation_.bed());
+  bed_.publish(simulation_.shown_bed());
 }
 
 std::optional<double> RunView::lag() const {

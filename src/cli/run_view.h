@@ -16,7 +16,7 @@ namespace sandstroke {
 class RunView : public SimulationObserver {
  public:
   /// Waits for a page, or an interrupt. Error: input, for a bed that is too large; io.
-  RunView(const Simulation& simulation, const std::string& title, bool opens);
+  RunView(Simulation& simulation, const std::string& title, bool opens);
 
   void on_tick(const TickRecord& tick) override;
   void on_relaxation(const RelaxationRecord&) override;
@@ -31,7 +31,7 @@ class RunView : public SimulationObserver {
   void wait_until(double time);
   void publish(const TickRecord& tick);
 
-  const Simulation& simulation_;
+  Simulation& simulation_;
   LiveBed bed_;
   LiveState shown_;
   ViewServer server_;

@@ -71,6 +71,10 @@ void warn_of_depth(const Sweep& sweep) {
                sentence);
 }
 
+fs::path output_folder(const SweepArguments& arguments) {
+  return arguments.output.empty() ? arguments.plan.stem() : arguments.output;
+}
+
 int dry_run(Sweep& sweep, const SweepArguments& arguments) {
   if (!arguments.json) spdlog::info("runs one point, to measure it");
   const Sweep::Estimate estimate = sweep.estimate();
@@ -83,19 +87,27 @@ int dry_run(Sweep& sweep, const SweepArguments& arguments) {
         sweep.refused().size(),
         sweep.looked_at() < design.points() ? fmt::format(" of {} looked at", sweep.looked_at()) : "",
         sweep.refused().begin()->first, sweep.refused().begin()->second);
+  const std::string script =
+      arguments.slurm.submit
+          ? job_script(arguments.slurm, arguments.plan, output_folder(arguments), sweep.simulations())
+          : "";
   if (arguments.json) {
-    print_json(nlohmann::ordered_json{{"points", design.points()},
-                                      {"simulations", sweep.simulations()},
-                                      {"looked_at", sweep.looked_at()},
-                                      {"refused", sweep.refused().size()},
-                                      {"seconds_on_one_core", estimate.seconds},
-                                      {"bytes", estimate.bytes}});
+    nlohmann::ordered_json json{{"points", design.points()},
+                                {"simulations", sweep.simulations()},
+                                {"looked_at", sweep.looked_at()},
+                                {"refused", sweep.refused().size()},
+                                {"seconds_on_one_core", estimate.seconds},
+                                {"bytes", estimate.bytes}};
+    if (!script.empty()) json["job_script"] = script;
+    print_json(json);
     return 0;
   }
   print_text("{}", points_text(design));
   print_text("\n{} points need {}{} simulations: about {} on one core and {:.3g} MB, measured on one point\n",
              design.points(), sweep.looked_at() < design.points() ? "about " : "", sweep.simulations(),
              duration(estimate.seconds), estimate.bytes * 1e-6);
+  if (!script.empty())
+    print_text("\n--slurm would submit this job array, and a job that collects:\n\n{}", script);
   return 0;
 }
 
@@ -141,8 +153,7 @@ int sweep(const SweepArguments& arguments) {
   if (arguments.dry_run) return dry_run(sweep, arguments);
 
   if (arguments.slurm.submit) check_slurm();
-  const SweepFolder folder = SweepFolder::make(
-      arguments.output.empty() ? arguments.plan.stem() : arguments.output, sweep.manifest());
+  const SweepFolder folder = SweepFolder::make(output_folder(arguments), sweep.manifest());
   check_collectable(folder);
   if (arguments.slurm.submit)
     return submit_sweep(arguments.slurm, arguments.plan, folder, sweep.groups(), arguments.json);
@@ -223,7 +234,8 @@ void add_sweep_command(CLI::App& app, Command& chosen) {
   command
       ->add_flag("--dry-run", arguments->dry_run,
                  "Run nothing but one point. Print the number of points, the first ones and the last, and "
-                 "the time and memory expected. Looks at 1000 points at most")
+                 "the time and memory expected; with --slurm also the job script. Looks at 1000 points at "
+                 "most")
       ->excludes(shard);
   command->add_flag("--json", arguments->json, "Print the summary as one JSON object");
   add_slurm_options(*command, arguments->slurm);

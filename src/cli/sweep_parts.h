@@ -31,4 +31,9 @@ void add_slurm_options(CLI::App& sweep, SlurmArguments& arguments);
 int submit_sweep(const SlurmArguments& arguments, const std::filesystem::path& plan,
                  const SweepFolder& folder, const std::vector<PointGroup>& groups, bool json);
 
+/// The script of the job array that submit_sweep() would submit for a new sweep of so many simulations, if
+/// the cluster sets no limit. Writes and asks nothing. Error: input, as array_script().
+std::string job_script(const SlurmArguments& arguments, const std::filesystem::path& plan,
+                       const std::filesystem::path& folder, std::size_t simulations);
+
 }  // namespace sandstroke

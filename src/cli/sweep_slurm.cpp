@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "cli/standard_output.h"
 #include "cli/sweep_parts.h"
@@ -26,6 +27,15 @@ std::vector<SlurmTask> tasks_to_do(const SweepFolder& folder, const std::vector<
     if (open) tasks.push_back(std::move(task));
   }
   return tasks;
+}
+
+int task_count(const SlurmOptions& options, std::size_t simulations) {
+  return options.tasks > 0 ? std::min(options.tasks, static_cast<int>(simulations))
+                           : default_tasks(simulations, options.cpus_per_task);
+}
+
+SlurmWork work_of(const fs::path& plan, const fs::path& folder) {
+  return {fs::read_symlink("/proc/self/exe"), fs::current_path(), plan, folder};
 }
 
 /// Submits a task for each of `of` parts; half as many, while the cluster refuses their number.
@@ -69,8 +79,7 @@ void add_slurm_options(CLI::App& sweep, SlurmArguments& arguments) {
 int submit_sweep(const SlurmArguments& arguments, const fs::path& plan, const SweepFolder& folder,
                  const std::vector<PointGroup>& groups, bool json) {
   const SlurmOptions& options = arguments.options;
-  int of = options.tasks > 0 ? std::min(options.tasks, static_cast<int>(groups.size()))
-                             : default_tasks(groups.size(), options.cpus_per_task);
+  int of = task_count(options, groups.size());
   const SlurmLimits limits = ask_slurm_limits();
   if (const int most = limits.most_tasks(); of > most) {
     spdlog::info("{} tasks instead of {}, because the cluster takes no more ({})", most, of, limits.text());
@@ -83,8 +92,7 @@ int submit_sweep(const SlurmArguments& arguments, const fs::path& plan, const Sw
       print_text("all points are done: sandstroke sweep collect {}\n", folder.path().string());
     return 0;
   }
-  const SlurmWork work{fs::read_symlink("/proc/self/exe"), fs::current_path(), plan, folder.path()};
-  const SlurmJobs jobs = submit_or_halve(options, work, folder, groups, of);
+  const SlurmJobs jobs = submit_or_halve(options, work_of(plan, folder.path()), folder, groups, of);
   if (json)
     print_json(nlohmann::ordered_json{{"folder", folder.path().string()},
                                       {"tasks", jobs.tasks.size()},
@@ -96,6 +104,14 @@ int submit_sweep(const SlurmArguments& arguments, const fs::path& plan, const Sw
         "sandstroke sweep status {}\n",
         jobs.array, jobs.tasks.size(), jobs.collect, folder.path().string());
   return 0;
+}
+
+std::string job_script(const SlurmArguments& arguments, const fs::path& plan, const fs::path& folder,
+                       std::size_t simulations) {
+  const int of = task_count(arguments.options, simulations);
+  std::vector<int> numbers(static_cast<std::size_t>(of));
+  std::iota(numbers.begin(), numbers.end(), 1);
+  return array_script(arguments.options, work_of(plan, folder), numbers, of);
 }
 
 }  // namespace sandstroke

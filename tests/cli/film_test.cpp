@@ -101,6 +101,16 @@ TEST_F(CliFilm, HasItsOwnRateWhereOneIsGiven) {
 
 TEST_F(CliFilm, SaysWhatToInstall) { expect_failure(film(), "apt-get install ffmpeg"); }
 
+TEST_F(CliFilm, SaysSoBeforeARunIsMade) {
+  Conditions conditions;
+  conditions.path = (folder_ / "programs").string();
+  const ProgramResult result = run_program(
+      {"run", "scene.toml", "-o", "d.h5", "--frames", "4", "--video", "d.mp4"}, folder_, conditions);
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_NE(result.err.find("apt-get install ffmpeg"), std::string::npos) << result.err;
+  EXPECT_FALSE(fs::exists(folder_ / "d.h5"));
+}
+
 TEST_F(CliFilm, FfmpegsLastWordIsTheReason) {
   fake_ffmpeg("echo other >&2; echo No such encoder >&2; exit 1");
   expect_failure(film(), "a.mp4: ffmpeg cannot write it: No such encoder\n");

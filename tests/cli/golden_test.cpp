@@ -51,6 +51,30 @@ TEST(CliGolden, AChangedStrokeOrSceneFails) {
   EXPECT_EQ(run_program({"golden", "check"}, folder).exit_code, 1);
 }
 
+TEST(CliGolden, TakesSandThatDoesNotRestOnlyWhenAsked) {
+  const fs::path folder = folder_with_golden_entry();
+  const std::string scene = read_file(folder / "strokes/tiny/scene.toml"),
+                    entry = read_file(folder / "golden/tiny/golden.h5");
+  write_file(folder / "strokes/tiny/scene.toml", scene + "[relaxation]\nmax_passes = 0\n");
+  const ProgramResult refused = run_program({"golden", "update", "tiny"}, folder);
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("add --doubtful"), std::string::npos) << refused.err;
+  EXPECT_EQ(read_file(folder / "golden/tiny/golden.h5"), entry);
+  EXPECT_EQ(run_program({"golden", "update", "--doubtful", "tiny"}, folder).exit_code, 0);
+  EXPECT_NE(read_file(folder / "golden/tiny/golden.h5"), entry);
+  EXPECT_EQ(run_program({"golden", "check"}, folder).exit_code, 0);
+}
+
+TEST(CliGolden, NoSceneTakesThePageOfAllScenes) {
+  const fs::path folder = folder_with_golden_entry();
+  fs::rename(folder / "strokes/tiny", folder / "strokes/index");
+  fs::rename(folder / "golden/tiny", folder / "golden/index");
+  EXPECT_EQ(run_program({"golden", "check"}, folder).exit_code, 0);
+  const ProgramResult refused = run_program({"golden", "check", "--report", "pages"}, folder);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("a scene is called \"index\""), std::string::npos) << refused.err;
+}
+
 TEST(CliGolden, HeightsAndForcesAreJudgedNotOnlyNames) {
   const fs::path folder = folder_with_golden_entry();
   const std::string stroke = read_file(folder / "strokes/tiny/line.toml");
@@ -148,6 +172,39 @@ TEST(CliGolden, TolerancesOfTheEntryAndOfTheCommandLineAreUsedAndSaid) {
   const ProgramResult refused = run_program({"golden", "check", "--force-tolerance", "1e-7"}, folder);
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.err.find("1e-7 is not a number 1e-05 or more"), std::string::npos) << refused.err;
+}
+
+TEST(CliGolden, TheReportIsAnIndexAndAPageOfEachSceneThatDiffers) {
+  const fs::path folder = folder_with_golden_entry();
+  fs::copy(folder / "strokes/tiny", folder / "strokes/another");
+  ASSERT_EQ(run_program({"golden", "update", "another"}, folder).exit_code, 0);
+  const std::string stroke = read_file(folder / "strokes/tiny/line.toml");
+  write_file(folder / "strokes/tiny/line.toml", stroke + "speed = 0.21\n");
+  const ProgramResult check = run_program({"golden", "check", "--report", "pages"}, folder);
+  EXPECT_EQ(check.exit_code, 1);
+  EXPECT_NE(check.out.find("pages/index.html"), std::string::npos) << check.out;
+  EXPECT_TRUE(fs::exists(folder / "pages/tiny.html"));
+  EXPECT_FALSE(fs::exists(folder / "pages/another.html"));
+  const std::string index = read_file(folder / "pages/index.html");
+  const auto at = [&](const char* name) { return index.find("\"name\":\"" + std::string(name) + "\""); };
+  EXPECT_LT(at("tiny"), at("another")) << "the worst first";
+  ASSERT_EQ(run_program({"golden", "check", "another", "--report", "all", "--all-pages"}, folder).exit_code,
+            0);
+  EXPECT_TRUE(fs::exists(folder / "all/another.html"));
+}
+
+TEST(CliCompare, NamesTheSettingsThatDiffer) {
+  const fs::path folder = test_folder();
+  for (const auto& [output, angle] :
+       {std::pair("a.h5", "relaxation.talus_angle=30"), {"b.h5", "relaxation.talus_angle=31"}})
+    ASSERT_EQ(run_program({"run", "scene.toml", "-o", output, "--set", angle}, folder).exit_code, 0);
+  const ProgramResult compared = run_program({"compare", "a.h5", "b.h5"}, folder);
+  EXPECT_NE(compared.out.find("settings that differ: relaxation.talus_angle was 30, is 31\n"),
+            std::string::npos)
+      << compared.out;
+  const auto json = nlohmann::json::parse(run_program({"compare", "a.h5", "b.h5", "--json"}, folder).out);
+  EXPECT_EQ(json["settings"], "relaxation.talus_angle was 30, is 31");
+  EXPECT_EQ(run_program({"compare", "a.h5", "a.h5"}, folder).out.find("settings"), std::string::npos);
 }
 
 TEST(CliGolden, AMissingEntryAndAMissingSceneFail) {

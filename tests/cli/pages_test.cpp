@@ -5,7 +5,7 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
-#include "chromium.h"
+#include "browser.h"
 #include "cli/program.h"
 #include "sanitized.h"
 
@@ -14,7 +14,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using CliPages = ChromiumTest;
+class CliPages : public BrowserTest {
+ protected:
+  /// The page is drawn, without errors: its number of charts and the titles of its sections.
+  static nlohmann::json drawn_page(const fs::path& page) {
+    const OpenedPage opened =
+        open_page(read_file(page),
+                  "[" + page_state + ", [...document.querySelectorAll('h2')].map((h) => h.textContent)]");
+    EXPECT_TRUE(opened.console.empty()) << opened.console.front();
+    EXPECT_EQ(opened.answer[0][0], "true");
+    EXPECT_EQ(opened.answer[0][2], 0);
+    return {opened.answer[0][1], opened.answer[1]};
+  }
+};
 
 TEST_F(CliPages, BenchDrawsEveryProblem) {
   const fs::path folder = test_folder();
@@ -23,7 +35,7 @@ TEST_F(CliPages, BenchDrawsEveryProblem) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const nlohmann::json data = nlohmann::json::parse(run.out);
   EXPECT_GE(data["problems"].size(), 11u);
-  const OpenedPage page = open_in_chromium(read_file(folder / "out/bench.html"), page_state);
+  const OpenedPage page = open_page(read_file(folder / "out/bench.html"), page_state);
   EXPECT_TRUE(page.console.empty()) << page.console.front();
   EXPECT_EQ(page.answer[0], "true");
   EXPECT_EQ(page.answer[2], 0);
@@ -37,22 +49,30 @@ TEST_F(CliPages, StressDrawsEveryMapAndNothingSurprises) {
   const nlohmann::json data = nlohmann::json::parse(run.out);
   EXPECT_EQ(data["surprises"], 0);
   EXPECT_GE(data["boundaries"].size(), 50u);
-  const OpenedPage page = open_in_chromium(read_file(folder / "out/stress.html"), page_state);
+  const OpenedPage page = open_page(read_file(folder / "out/stress.html"), page_state);
   EXPECT_TRUE(page.console.empty()) << page.console.front();
   EXPECT_EQ(page.answer[0], "true");
   EXPECT_EQ(page.answer[2], 0);
   EXPECT_GE(page.answer[1], data["maps"].size() + data["traces"].size());
 }
 
-/// The page is drawn, without errors: its number of charts and the titles of its sections.
-nlohmann::json drawn_page(const fs::path& page) {
-  const OpenedPage opened = open_in_chromium(
-      read_file(page),
-      "[" + page_state + ", [...document.querySelectorAll('h2')].map((h) => h.textContent)]");
-  EXPECT_TRUE(opened.console.empty()) << opened.console.front();
-  EXPECT_EQ(opened.answer[0][0], "true");
-  EXPECT_EQ(opened.answer[0][2], 0);
-  return {opened.answer[0][1], opened.answer[1]};
+TEST_F(CliPages, StressOfASceneSaysHowFarItIsFromItsBoundaries) {
+  const fs::path folder = test_folder();
+  const ProgramResult run = run_program({"stress", "--scene", "scene.toml", "--quick", "-o", "out"}, folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("stiffness of the sand"), std::string::npos) << run.out;
+  const OpenedPage page =
+      open_page(read_file(folder / "out/stress.html"),
+                "[" + page_state + ", document.querySelector('#margins li').textContent]");
+  EXPECT_EQ(page.answer[0], nlohmann::ordered_json({"true", 4, 0}));
+  EXPECT_NE(page.answer[1].get<std::string>().find("this scene: stable"), std::string::npos)
+      << page.answer[1];
+  // Late by 200 ticks it is not.
+  write_file(folder / "scene.toml", read_file(folder / "scene.toml") + "[force]\nk_s = 1e5\n");
+  const ProgramResult stiff =
+      run_program({"stress", "--scene", "scene.toml", "--quick", "-o", "out"}, folder);
+  EXPECT_EQ(stiff.exit_code, 3) << stiff.err;
+  EXPECT_NE(stiff.out.find("UNSTABLE"), std::string::npos) << stiff.out;
 }
 
 TEST_F(CliPages, CompareDrawsTwoRunsAndTwoPictures) {
@@ -82,10 +102,10 @@ TEST_F(CliPages, ReportDrawsARunAndWhatItSaysAgreesWithTheRun) {
   const ProgramResult report = run_program({"report", "a.h5"}, folder);
   EXPECT_EQ(report.exit_code, 0) << report.err;
   EXPECT_EQ(report.out, "a.html\n");
-  const OpenedPage page = open_in_chromium(read_file(folder / "a.html"),
-                                           "[" + page_state +
-                                               ", charts[2].drawn.getOption().series[0].data.at(-1)[1],"
-                                               " document.images[0].naturalWidth]");
+  const OpenedPage page =
+      open_page(read_file(folder / "a.html"), "[" + page_state +
+                                                  ", charts[2].drawn.getOption().series[0].data.at(-1)[1],"
+                                                  " document.images[0].naturalWidth]");
   EXPECT_TRUE(page.console.empty()) << page.console.front();
   EXPECT_EQ(page.answer[0].dump(), R"(["true",5,0])");
   const double energy = nlohmann::json::parse(run.out)["absorbed_energy"];
@@ -119,13 +139,14 @@ TEST(CliReport, SaysWhyARunHasNoStrokeToShow) {
   }
 }
 
-TEST_F(CliPages, GoldenCheckDrawsAPageForEachScene) {
+TEST_F(CliPages, GoldenCheckDrawsAnIndexAndAPageForEachScene) {
   const fs::path folder = test_folder();
   fs::create_directories(folder / "strokes/tiny");
   fs::rename(folder / "scene.toml", folder / "strokes/tiny/scene.toml");
   fs::rename(folder / "line.toml", folder / "strokes/tiny/line.toml");
   ASSERT_EQ(run_program({"golden", "update", "tiny"}, folder).exit_code, 0);
-  ASSERT_EQ(run_program({"golden", "check", "--report", "report"}, folder).exit_code, 0);
+  ASSERT_EQ(run_program({"golden", "check", "--report", "report", "--all-pages"}, folder).exit_code, 0);
+  EXPECT_EQ(drawn_page(folder / "report/index.html"), nlohmann::json({0, {"The scene is as it should be"}}));
   EXPECT_EQ(
       drawn_page(folder / "report/tiny.html"),
       nlohmann::json({4, {"Checks", "Change of height", "Picture", "Force and depth over time", "Files"}}));

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "chromium.h"
+#include "browser.h"
 #include "cli/program.h"
 #include "hdf5/hdf5_file.h"
 
@@ -129,7 +129,7 @@ TEST(CliPaths, NamesAreNoCommands) {
   for (const fs::path& there : {above, folder}) EXPECT_FALSE(fs::exists(there / "bad"));
 }
 
-using CliOddNames = ChromiumTest;
+using CliOddNames = BrowserTest;
 
 TEST_F(CliOddNames, PagesShowNamesAndRunNothing) {
   const fs::path above = test_folder();
@@ -152,7 +152,7 @@ TEST_F(CliOddNames, PagesShowNamesAndRunNothing) {
     ASSERT_EQ(result.exit_code, 0) << words[0] << ": " << result.err;
   }
   for (const char* page : {"run.html", "runs/compare.html", "pictures/compare.html", "sweep/sweep.html"}) {
-    const OpenedPage opened = open_in_chromium(read_file(above / page), page_state);
+    const OpenedPage opened = open_page(read_file(above / page), page_state);
     EXPECT_TRUE(opened.console.empty()) << opened.console.front();
     EXPECT_EQ(opened.answer[0], "true") << page;
     EXPECT_EQ(opened.answer[2], 0) << page;

@@ -222,6 +222,17 @@ TEST_F(CliSweep, ADryRunCountsAndLeavesNothing) {
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
+TEST_F(CliSweep, ADryRunForSlurmShowsTheJobScriptAndAsksNobody) {
+  const ProgramResult result =
+      sweep({"plan.toml", "-o", "out", "--dry-run", "--slurm", "--tasks", "2", "--mem", "3G"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;  // with or without a cluster
+  for (const char* line : {"#!/bin/sh\n", "#SBATCH --array=1-2\n", "#SBATCH --mem=3G\n"})
+    EXPECT_NE(result.out.find(line), std::string::npos) << result.out;
+  EXPECT_FALSE(fs::exists(folder / "out"));
+  const Json shown = json({"plan.toml", "--dry-run", "--slurm"});
+  EXPECT_NE(shown["job_script"].get<std::string>().find("--shard"), std::string::npos);
+}
+
 /// It cannot look at all ten million points, and says the same as if it had.
 TEST_F(CliSweep, ADryRunOfTenMillionPointsCountsThemByTheirAxes) {
   plan(
