@@ -22,7 +22,7 @@ void carve(const ToolSettings& settings) {
     tool.place(bed, tip.x(), tip.y());
     tool.displace(bed, tip.z(), motion, {Deposit::outward});
     tool.read_heights(bed);
-    require(force.feel(tool.footprint(), tip, {0.0}, motion, {}).force.allFinite());
+    require(force.feel(bed, tool.footprint(), tip, motion, {}).force.allFinite());
   }
   require(bed.grid().allFinite());
   require(std::abs(bed.volume()) < 1e-9 * 4096.0 * cell * cell * reach);
