@@ -32,6 +32,7 @@ sandstroke_needs(Boost_FOUND libboost-dev "Boost 1.74 (Beast and Asio: the live 
 sandstroke_needs(HDF5_FOUND libhdf5-dev "HDF5 (run files)" "pkg_check_modules(HDF5 QUIET IMPORTED_TARGET hdf5)")
 sandstroke_needs(HDF5_HL_LIBRARY libhdf5-dev "HDF5's high-level library (dimension scales)"
                  "find_library(HDF5_HL_LIBRARY hdf5_hl HINTS ${HDF5_LIBRARY_DIRS})")
+include(tools/hdf5.cmake)
 sandstroke_needs(SQLITE_FOUND libsqlite3-dev "SQLite (ROS 2 bags)" "pkg_check_modules(SQLITE QUIET IMPORTED_TARGET sqlite3)")
 sandstroke_needs(LZ4_FOUND liblz4-dev "LZ4 (MCAP, ROS 1 bags)" "pkg_check_modules(LZ4 QUIET IMPORTED_TARGET liblz4)")
 sandstroke_needs(ZSTD_FOUND libzstd-dev "Zstandard (MCAP)" "pkg_check_modules(ZSTD QUIET IMPORTED_TARGET libzstd)")
