@@ -131,14 +131,18 @@ Side walk(const Section& section, int from, int direction, int far) {
 }
 
 FurrowMeasures measure(const Section& section, double tool_radius) {
-  if (std::isnan(section(0))) return {};
+  double least = section(0);
+  if (std::isnan(least)) return {};
   const int near = static_cast<int>(tool_radius / section.step()),
             far = static_cast<int>(reach * tool_radius / section.step());
   int lowest = 0;
   for (int k = -near; k <= near; ++k)
-    if (section(k) < section(lowest)) lowest = k;
+    if (const double change = section(k); change < least) {
+      least = change;
+      lowest = k;
+    }
   const Side left = walk(section, lowest, 1, far), right = walk(section, lowest, -1, far);
-  return {.depth = std::max(0.0, -section(lowest)),
+  return {.depth = std::max(0.0, -least),
           .width = (left.edge - right.edge) * section.step(),
           .rampart = std::fmax(left.crest, right.crest)};
 }
