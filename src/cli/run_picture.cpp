@@ -31,7 +31,8 @@ CellRange RunPainter::stroke_cells() {
 
 Image RunPainter::draw(const HeightGrid& surface, std::optional<double> tool_time) {
   subject_.tool = tool_time ? std::optional(tool_at(*tool_time)) : std::nullopt;
-  const HeightGrid difference = surface - initial_;
+  HeightGrid difference;
+  if (subject_.view.style == RenderStyle::difference) difference = surface - initial_;
   subject_.difference = &difference;
   return renderer_.render(HeightField(surface, run_.cell_size(), scene_.bed.shape), subject_);
 }

@@ -30,7 +30,8 @@ Image ChangePainter::draw(const HeightField& initial, const HeightField& last, c
   }
   const HeightGrid before = initial.grid(), after = last.grid();
   RenderSubject subject = subject_of_change(before, after, stroke, view);
-  const HeightGrid difference = after - before;
+  HeightGrid difference;
+  if (view.style == RenderStyle::difference) difference = after - before;
   subject.difference = &difference;
   return renderer_->render(last, subject);
 }

@@ -13,6 +13,7 @@ namespace sandstroke {
 namespace {
 
 constexpr int side = HeightField::tile_side;
+using Texel = std::array<Eigen::half, 4>;  // slope along x and y, parts of sun and sky seen
 
 GlObject texture_of(GLint internal_format, int cols, int rows, GLenum format, GLenum type) {
   GlObject texture = make_texture();
@@ -76,9 +77,7 @@ void SurfaceTextures::check_size(int rows, int cols) {
 
 SurfaceTextures::SurfaceTextures(const BedGeometry& bed) : bed_(bed) {
   check_size(bed.rows(), bed.cols());  // before any memory is taken for it
-  heights_ = DrawnHeights::Zero(bed.rows(), bed.cols());
-  details_.resize(bed.tile_count());
-  shading_outdated_.assign(details_.size(), 1);
+  for (DrawnHeights* values : {&heights_, &sun_, &sky_}) values->resize(bed.rows(), bed.cols());
   height_texture_ = texture_of(GL_R32F, bed.cols(), bed.rows(), GL_RED, GL_FLOAT);
   shading_texture_ = texture_of(GL_RGBA16F, bed.cols(), bed.rows(), GL_RGBA, GL_HALF_FLOAT);
 }
@@ -90,13 +89,32 @@ CellRange SurfaceTextures::patch(int tile) const {
   return cells;
 }
 
+void SurfaceTextures::begin_level(float height) {
+  heights_.setConstant(height);
+  sun_.setOnes();
+  sky_.setOnes();
+  level_ = lowest_ = highest_ = static_cast<double>(height);
+  details_.assign(bed_.tile_count(), TileDetail{.lowest = level_, .highest = level_});
+  shading_outdated_.assign(details_.size(), 0);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  bind_texture(height_texture_, 0);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, bed_.cols(), bed_.rows(), GL_RED, GL_FLOAT, heights_.data());
+  bind_texture(shading_texture_, 0);
+  const std::vector<Texel> row(static_cast<std::size_t>(bed_.cols()),
+                               Texel{Eigen::half(0), Eigen::half(0), Eigen::half(1), Eigen::half(1)});
+  for (int i = 0; i < bed_.rows(); ++i)
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, i, bed_.cols(), 1, GL_RGBA, GL_HALF_FLOAT, row.data());
+  check_gl("uploading a level surface");
+  filtered_ = shading_filtered_ = false;
+}
+
 std::vector<SurfaceTextures::ChangedTile> SurfaceTextures::take_heights(const HeightField& surface) {
   std::vector<ChangedTile> changed;
   bool finite = true;
   std::vector<double> block(BedGeometry::tile_area);
   for (int tile = 0; tile < bed_.tile_count(); ++tile) {
     const CellRange cells = bed_.tile_cells(tile);
-    bool differs = !filled_;
+    bool differs = false;
     surface.read_tile(tile, block.data());
     const auto row_of = [&](int row) { return block.data() + side * (row - cells.row_begin); };
     for (int row = cells.row_begin; row < cells.row_end; ++row) {
@@ -112,8 +130,8 @@ std::vector<SurfaceTextures::ChangedTile> SurfaceTextures::take_heights(const He
     const auto height_at = [&](int row, int col) {
       return static_cast<float>(row_of(row)[col - cells.col_begin]);
     };
-    const CellRange part = changed_part(
-        cells, [&](int row, int col) { return !filled_ || height_at(row, col) != heights_(row, col); });
+    const CellRange part =
+        changed_part(cells, [&](int row, int col) { return height_at(row, col) != heights_(row, col); });
     for (int row = part.row_begin; row < part.row_end; ++row)
       for (int col = part.col_begin; col < part.col_end; ++col) heights_(row, col) = height_at(row, col);
     changed.push_back({tile, part});
@@ -128,6 +146,8 @@ std::vector<SurfaceTextures::ChangedTile> SurfaceTextures::take_heights(const He
 
 int SurfaceTextures::update(const HeightField& surface) {
   changes_.clear();
+  if (!filled_) begin_level(static_cast<float>(surface(0, 0)));
+  filled_ = true;
   const std::vector<ChangedTile> changed = take_heights(surface);
   if (changed.empty()) return 0;
 
@@ -144,7 +164,7 @@ int SurfaceTextures::update(const HeightField& surface) {
     details_[changes_[i].tile] = tile_detail(heights_, patch(changes_[i].tile));
   });
 
-  const double highest_before = filled_ ? highest_ : -1e300;
+  const double highest_before = highest_;
   lowest_ = 1e300;
   highest_ = -1e300;
   for (const TileDetail& detail : details_) {
@@ -164,7 +184,6 @@ int SurfaceTextures::update(const HeightField& surface) {
   glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);  // coarser levels are made when they are asked for
   check_gl("uploading heights");
-  filled_ = true;
   filtered_ = false;
   return static_cast<int>(changed.size());
 }
@@ -186,21 +205,23 @@ void SurfaceTextures::mark_shading(const CellRange& cells, double relief) {
       shading_outdated_[bed_.tile_index(r, c)] = 1;
 }
 
+void SurfaceTextures::mark_uneven() {
+  for (int tile = 0; tile < bed_.tile_count(); ++tile)
+    if (details_[tile].lowest != level_ || details_[tile].highest != level_)
+      mark_shading(patch(tile), highest_ - lowest_);
+}
+
 void SurfaceTextures::update_shading(const Sun& sun) {
   shaded_ = {};
   if (!(sun == sun_used_)) {
-    std::fill(shading_outdated_.begin(), shading_outdated_.end(), char{1});
+    mark_uneven();  // old shadows
     sun_used_ = sun;
+    mark_uneven();  // new ones
   }
   std::vector<int> outdated;
   for (int tile = 0; tile < static_cast<int>(shading_outdated_.size()); ++tile)
     if (shading_outdated_[tile]) outdated.push_back(tile);
-  if (outdated.empty()) return;
-  const bool first = sun_.size() == 0;
-  if (first) {
-    sun_.resize(bed_.rows(), bed_.cols());
-    sky_.resize(bed_.rows(), bed_.cols());
-  }
+  if (outdated.empty() && shading_filtered_) return;
   std::vector<CellRange> changed(outdated.size());
   parallel_for(outdated.size(), [&](std::size_t i) {
     const CellRange cells = bed_.tile_cells(outdated[i]);
@@ -218,13 +239,13 @@ void SurfaceTextures::update_shading(const Sun& sun) {
   upload_shading(outdated);
   for (const CellRange& cells : changed) shaded_ = around(shaded_, cells);
   for (const Change& change : changes_) shaded_ = around(shaded_, change.cells);
-  shaded_ = first ? bed_.cells() : common(grown(shaded_, 1), bed_.cells());  // slopes and softened()
+  if (!shaded_.empty()) shaded_ = common(grown(shaded_, 1), bed_.cells());  // slopes and softened()
 }
 
 void SurfaceTextures::upload_shading(const std::vector<int>& tiles) {
   bind_texture(shading_texture_, 0);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  std::vector<std::array<Eigen::half, 4>> texels(static_cast<std::size_t>(side) * side);
+  std::vector<Texel> texels(static_cast<std::size_t>(side) * side);
   for (const int tile : tiles) {
     const CellRange cells = bed_.tile_cells(tile);
     std::size_t i = 0;
@@ -240,6 +261,7 @@ void SurfaceTextures::upload_shading(const std::vector<int>& tiles) {
     shading_outdated_[tile] = 0;
   }
   glGenerateMipmap(GL_TEXTURE_2D);
+  shading_filtered_ = true;
   check_gl("uploading shading");
 }
 

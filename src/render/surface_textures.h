@@ -65,9 +65,13 @@ class SurfaceTextures {
     int tile = 0;
     CellRange cells;
   };
+  /// Begins with a level surface, in full light: what is like it need not be computed.
+  void begin_level(float height);
   /// Keeps the heights of tiles that differ. Error: input, where a height is not finite.
   std::vector<ChangedTile> take_heights(const HeightField& surface);
   void mark_shading(const CellRange& changed, double relief);
+  /// Marks what tiles that are not level can shade.
+  void mark_uneven();
   void upload_shading(const std::vector<int>& tiles);
 
   BedGeometry bed_;
@@ -77,8 +81,8 @@ class SurfaceTextures {
   CellRange shaded_;
   std::vector<char> shading_outdated_;
   Sun sun_used_;
-  double lowest_ = 0.0, highest_ = 0.0;
-  bool filled_ = false, filtered_ = false;
+  double level_ = 0.0, lowest_ = 0.0, highest_ = 0.0;
+  bool filled_ = false, filtered_ = false, shading_filtered_ = false;
   GlObject height_texture_, shading_texture_;
 };
 

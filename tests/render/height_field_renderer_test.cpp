@@ -135,12 +135,39 @@ TEST(HeightFieldRenderer, AFilmsFramesEqualFreshPicturesAndTakeFewPixels) {
 
 TEST(HeightFieldRenderer, ChangedTilesAreCounted) {
   HeightFieldRenderer renderer(200, 270, 0.01);
-  HeightField surface(200, 270, 0.01);
+  HeightField surface(noisy(200, 270, 0.002), 0.01);
   renderer.render(surface, small_picture());
   EXPECT_EQ(renderer.counters().tiles_changed, 4 * 5);
   surface.set(100, 100, 0.01);
   renderer.render(surface, small_picture());
   EXPECT_EQ(renderer.counters().tiles_changed, 1);
+}
+
+/// Sand that nobody touched is not computed: one heap changes one tile. The picture is that of a renderer
+/// that had computed every cell, for another surface and another sun. In one bed only the first cell is at
+/// another height.
+TEST(HeightFieldRenderer, LevelSandCostsNothingAndLooksTheSame) {
+  for (const bool odd_first : {false, true}) {
+    HeightField surface(500, 450, 0.01);
+    for (int row = 300; row < 312; ++row)
+      for (int col = 200; col < 212; ++col) surface.set(row, col, 0.12);
+    if (odd_first) surface.set(0, 0, 0.001);
+    for (const double sun : {5.0, 30.0}) {
+      RenderSubject subject = small_picture();
+      subject.view.light_elevation = sun;
+      HeightFieldRenderer fresh(500, 450, 0.01), used(500, 450, 0.01);
+      const Image picture = fresh.render(surface, subject);
+      EXPECT_EQ(fresh.counters().tiles_changed, odd_first ? 8 * 8 : 1);
+      RenderSubject other = small_picture();
+      other.view.light_elevation = 12.0;
+      other.view.light_azimuth = 10.0;
+      used.render(HeightField(noisy(500, 450, 0.003), 0.01), other);
+      EXPECT_EQ(used.render(surface, subject).rgb, picture.rgb) << sun;
+      // The shadow of a low sun goes when the sun rises.
+      subject.view.light_elevation = 60.0;
+      EXPECT_EQ(fresh.render(surface, subject).rgb, fresh_picture(surface, subject).rgb) << sun;
+    }
+  }
 }
 
 TEST(HeightFieldRenderer, MovedSunGivesWhatAFreshRendererGives) {
