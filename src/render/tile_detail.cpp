@@ -41,7 +41,7 @@ TileDetail tile_detail(const DrawnHeights& heights, const CellRange& patch) {
 double skirt_bottom(const TileDetail& detail, double cell_size) { return detail.lowest - cell_size; }
 
 int level_of_detail(const TileDetail& detail, double cell_size, double pixels_per_metre) {
-  constexpr double longest = 2.0, largest_error = 0.33;  // pixels
+  constexpr double longest = 3.0, largest_error = 0.33;  // pixels
   int level = 0;
   while (level < coarsest_level && (cell_size * (2 << level) * pixels_per_metre <= longest ||
                                     detail.error[level + 1] * pixels_per_metre <= largest_error))

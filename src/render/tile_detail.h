@@ -26,7 +26,7 @@ TileDetail tile_detail(const DrawnHeights& heights, const CellRange& patch);
 /// a sample here and there even between flat tiles.
 double skirt_bottom(const TileDetail& detail, double cell_size);
 
-/// The coarsest level at which triangles are at most 2 pixels long, or wrong by at most a third of a pixel.
+/// The coarsest level at which triangles are at most 3 pixels long, or wrong by at most a third of a pixel.
 int level_of_detail(const TileDetail& detail, double cell_size, double pixels_per_metre);
 
 }  // namespace sandstroke

@@ -45,7 +45,8 @@ TEST(LevelOfDetail, GetsCoarserWithDistance) {
   TileDetail rough;
   rough.error = {0.0, 0.01, 0.02, 0.03, 0.04, 0.05, 0.06};
   EXPECT_EQ(level_of_detail(rough, 0.01, 1000.0), 0);  // cells of 10 pixels
-  EXPECT_EQ(level_of_detail(rough, 0.01, 100.0), 1);   // of 1 pixel: every second one is enough
+  EXPECT_EQ(level_of_detail(rough, 0.01, 160.0), 0);   // of 1.6 pixels: every second one would be more than 3
+  EXPECT_EQ(level_of_detail(rough, 0.01, 140.0), 1);   // of 1.4 pixels: every second one is enough
   EXPECT_EQ(level_of_detail(rough, 0.01, 25.0), 3);
   EXPECT_EQ(level_of_detail(rough, 0.01, 1.0), coarsest_level);
 }
