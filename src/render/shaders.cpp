@@ -48,7 +48,10 @@ uniform ivec2 cells;
 uniform float cell_size;
 uniform float wall_radius;   // m, of a round bed; 0: the bed is not round
 in vec3 world;
-bool beyond_wall() { return wall_radius > 0.0 && length(world.xy) > wall_radius; }
+// The part of a pixel that lies beyond the wall of a round bed.
+float beyond_wall(float pixel) {
+  return wall_radius > 0.0 ? clamp((length(world.xy) - wall_radius) / pixel + 0.5, 0.0, 1.0) : 0.0;
+}
 vec2 texture_position() { return (world.xy / cell_size + bed_origin + 0.5) / vec2(cells); }
 // Metres per pixel, along the longer side of the pixel's footprint.
 float pixel_footprint() { return max(length(dFdx(world.xy)), length(dFdy(world.xy))); }
@@ -157,9 +160,11 @@ float rough_diffuse(vec3 normal, vec3 from_sun, vec3 to_viewer) {
 void main() {
   float pixel = pixel_footprint(), footprint = max(length(dFdx(world)), length(dFdy(world)));  // the height's part in it
   vec4 here = mean_over(shading, min(pixel, widest_pixel));
-  if (beyond_wall()) {
-    vec3 received = sun_colour * 0.9 * sun_direction.z + ambient(vec3(0.0, 0.0, 1.0));
-    colour = vec4(tone(vec3(0.27, 0.155, 0.085) * received), 1.0);
+  float beyond = beyond_wall(pixel);
+  vec3 on_top = sun_colour * 0.9 * sun_direction.z + ambient(vec3(0.0, 0.0, 1.0));
+  vec3 wood = vec3(0.27, 0.155, 0.085) * on_top;
+  if (beyond == 1.0) {
+    colour = vec4(tone(wood), 1.0);
     return;
   }
   vec3 upward = vec3(-here.xy, 1.0), ground = normalize(upward);
@@ -177,7 +182,7 @@ void main() {
   vec3 sky = part.y / (1.0 - albedo * (1.0 - part.y));
   vec3 received = sun_colour * part.x * max(rough_diffuse(normal, sun_direction, to_eye(world)), 0.0) +
                   ambient(normal) * sky;
-  colour = vec4(tone(albedo * received), 1.0);
+  colour = vec4(mix(tone(albedo * received), tone(wood), beyond), 1.0);
 }
 )";
 }
@@ -223,8 +228,8 @@ void main() {
     line *= smoothstep(0.0005, 0.002, min(above, below) / contour_interval);
   }
   bool dark = dot(mapped, vec3(0.3, 0.6, 0.1)) < 0.35;
-  if (beyond_wall()) mapped = vec3(0.8), line = 0.0;
-  colour = vec4(mix(mapped, vec3(dark ? 0.85 : 0.05), 0.6 * line), 1.0);
+  vec3 with_lines = mix(mapped, vec3(dark ? 0.85 : 0.05), 0.6 * line);
+  colour = vec4(mix(with_lines, vec3(0.8), beyond_wall(pixel)), 1.0);
 }
 )";
 }

@@ -170,6 +170,28 @@ TEST(HeightFieldRenderer, LevelSandCostsNothingAndLooksTheSame) {
   }
 }
 
+/// The wall of a round bed goes through pixels: nearly all of those have some of both colours.
+TEST(HeightFieldRenderer, TheEdgeOfARoundBedIsSmooth) {
+  const HeightField surface(200, 200, 0.01, BedShape::round);
+  const Image picture = fresh_picture(surface, small_picture(RenderStyle::height, ViewName::top));
+  using Colour = std::array<int, 3>;
+  const auto colour = [&](int x, int y) {
+    const std::uint8_t* rgb = picture.pixel(x, y);
+    return Colour{rgb[0], rgb[1], rgb[2]};
+  };
+  const Colour sand = colour(picture.width / 2, picture.height / 2), wall = {204, 204, 204};
+  int steps = 0, mixed = 0;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 1; x + 1 < picture.width; ++x) {
+      const Colour left = colour(x - 1, y), here = colour(x, y), right = colour(x + 1, y);
+      steps += (left == wall && here == sand) || (left == sand && here == wall);
+      mixed +=
+          here != wall && here != sand && (left == wall || left == sand) && (right == wall || right == sand);
+    }
+  EXPECT_GT(mixed, 100);
+  EXPECT_LT(steps, mixed / 5);
+}
+
 TEST(HeightFieldRenderer, MovedSunGivesWhatAFreshRendererGives) {
   const HeightField surface(noisy(100, 100, 0.003), 0.01);
   HeightFieldRenderer renderer(100, 100, 0.01);
