@@ -36,8 +36,18 @@ std::string text_chunk(const std::string& keyword, const std::string& text) {
 
 constexpr std::size_t header_end = 8 + 25;  // signature and IHDR, which comes first
 
+/// Whether most pixels are as the one to their left, as in maps and diagrams, and not in pictures of sand.
+bool is_flat(const Image& image) {
+  std::int64_t alike = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 1; x < image.width; ++x)
+      alike += std::equal(image.pixel(x, y), image.pixel(x, y) + 3, image.pixel(x - 1, y));
+  return 2 * alike > std::int64_t{image.width} * image.height;
+}
+
 /// Encodes 8-bit RGB with one filter and a short search. In pictures of sand no two pixels are alike:
-/// libpng's own choice of filters and its full search take five times as long, for a file as large.
+/// libpng's own choice of filters and its full search take five times as long, for a file as large. There
+/// only runs are looked for: a file 6 to 10 % larger, in 0.6 of the time. (Maps would become 27 % larger.)
 struct ColourEncoder {
   std::string bytes;
   char message[160] = "out of memory";
@@ -61,6 +71,7 @@ struct ColourEncoder {
     png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
     png_set_compression_level(png, 4);
+    if (!is_flat(image)) png_set_compression_strategy(png, Z_RLE);
     png_write_info(png, info);
     for (int y = 0; y < image.height; ++y) png_write_row(png, image.pixel(0, y));
     png_write_end(png, info);
