@@ -90,7 +90,7 @@ void check_room(const fs::path& output, double bytes) {
 HeightGrid surface_of(const RunFile& run, const ExportArguments& arguments) {
   HeightGrid heights =
       surface_named(run, arguments.frame.empty() ? "final" : arguments.frame, "final, initial or a number")
-          .heights;
+          .surface.grid();
   if (!heights.isFinite().all())
     throw_input_error("{}: holds heights that are not finite numbers; run the scene again", run.name());
   return heights;

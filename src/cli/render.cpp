@@ -113,12 +113,12 @@ int render(const RenderArguments& arguments) {
     return exit_code;
   }
   RunPainter painter(run, view, arguments.contour_interval.value_or(0.0));
-  const RunSurface surface = surface_named(run, arguments.frame, "final, initial, all or a number");
-  const bool tool = arguments.tool.value_or(surface.is_frame && run.has_trace());
-  const fs::path output = default_output(arguments, surface.ending + ".png");
+  const RunSurface shown = surface_named(run, arguments.frame, "final, initial, all or a number");
+  const bool tool = arguments.tool.value_or(shown.is_frame && run.has_trace());
+  const fs::path output = default_output(arguments, shown.ending + ".png");
   check_picture_name(output);
   check_output(output, {arguments.run}, picture_output);
-  write_png(output, painter.draw(surface.heights, tool ? std::optional(surface.time) : std::nullopt));
+  write_png(output, painter.draw(shown.surface, tool ? std::optional(shown.time) : std::nullopt));
   print_text("{}\n", output.string());
   return 0;
 }

@@ -24,7 +24,7 @@ int report(const ReportArguments& arguments) {
     throw_input_error("{}: is not a name for a page; end it with .html", output.string());
   check_output(output, {arguments.run}, page_output);
   const auto draw = [&](const LastSurface& last) {
-    return RunPainter(run, run.scene().view).draw(last.surface.grid());
+    return RunPainter(run, run.scene().view).draw(last.surface);
   };
   write_text_file(output, run_report(run, draw, run.error_estimate()).html(), page_output);
   print_text("{}\n", output.string());

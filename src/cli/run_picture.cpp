@@ -13,9 +13,10 @@ RunPainter::RunPainter(const RunFile& run, const ViewSettings& view, double cont
     : run_(run),
       scene_(run.scene()),
       renderer_(run.rows(), run.cols(), run.cell_size()),
-      initial_(run.initial()) {
+      initial_(run.initial_bed()) {
   const CellRange stroke = view.name == ViewName::stroke ? stroke_cells() : CellRange{};
-  subject_ = subject_of_change(initial_, last_surface(run).surface.grid(), stroke, view, contour_interval);
+  subject_ = subject_of_change(initial_, last_surface(run).surface, stroke, view, contour_interval);
+  subject_.shape = scene_.bed.shape;
 }
 
 /// The cells where the hand took the tool below the starting surface. Empty without a trace.
@@ -26,15 +27,15 @@ CellRange RunPainter::stroke_cells() {
   for (const TickRecord& tick : *trace_)
     if (!std::isnan(tick.level)) tips.push_back(tip_of(scene_.device, tick.hand.position));
   return cells_under(tips, tool_reach(scene_.tool), BedGeometry(run_.rows(), run_.cols(), run_.cell_size()),
-                     initial_.maxCoeff());
+                     start_heights(initial_).highest);
 }
 
-Image RunPainter::draw(const HeightGrid& surface, std::optional<double> tool_time) {
+Image RunPainter::draw(const HeightField& surface, std::optional<double> tool_time) {
   subject_.tool = tool_time ? std::optional(tool_at(*tool_time)) : std::nullopt;
   HeightGrid difference;
-  if (subject_.view.style == RenderStyle::difference) difference = surface - initial_;
+  if (subject_.view.style == RenderStyle::difference) difference = surface.grid() - initial_.grid();
   subject_.difference = &difference;
-  return renderer_.render(HeightField(surface, run_.cell_size(), scene_.bed.shape), subject_);
+  return renderer_.render(surface, subject_);
 }
 
 ToolBody RunPainter::tool_at(double time) {
@@ -61,7 +62,7 @@ std::shared_ptr<const TriangleMesh> RunPainter::mesh_as(const Eigen::Quaterniond
 }
 
 Image run_picture(const RunFile& run, const ViewSettings& view) {
-  return RunPainter(run, view).draw(run.final());
+  return RunPainter(run, view).draw(run.final_bed());
 }
 
 }  // namespace sandstroke

@@ -21,7 +21,7 @@ class RunPainter {
 
   /// Draws a surface and, if given `tool_time` [s], the tool at that time (at the last tick before it).
   /// Error: input, if the run has no trace.
-  Image draw(const HeightGrid& surface, std::optional<double> tool_time = std::nullopt);
+  Image draw(const HeightField& surface, std::optional<double> tool_time = std::nullopt);
 
  private:
   CellRange stroke_cells();
@@ -31,7 +31,7 @@ class RunPainter {
   const RunFile& run_;
   Scene scene_;
   HeightFieldRenderer renderer_;  // declared before the surfaces: it refuses beds that cannot be drawn
-  HeightGrid initial_;
+  HeightField initial_;
   RenderSubject subject_;
   std::shared_ptr<const TriangleMesh> mesh_;  // of any tool but the sphere
   Eigen::Matrix3d rotation_;                  // the orientation of mesh_

@@ -8,8 +8,8 @@
 namespace sandstroke {
 
 RunSurface surface_named(const RunFile& run, const std::string& name, const char* choices) {
-  if (name == "final") return {run.final(), std::numeric_limits<double>::infinity(), "", false};
-  if (name == "initial") return {run.initial(), 0.0, "_initial", false};
+  if (name == "final") return {run.final_bed(), std::numeric_limits<double>::infinity(), "", false};
+  if (name == "initial") return {run.initial_bed(), 0.0, "_initial", false};
   int k = 0;
   if (!parse_number(name, k)) throw_input_error("--frame {} is not a frame; take {}", name, choices);
   const std::vector<double> times = frame_times(run);

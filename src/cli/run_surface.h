@@ -9,7 +9,7 @@ namespace sandstroke {
 
 /// A surface of a run that --frame names.
 struct RunSurface {
-  HeightGrid heights;
+  HeightField surface;
   double time = 0.0;      ///< s; the final one: infinity
   std::string ending;     ///< for file names, before the extension: "", "_initial", "_frame_0003"
   bool is_frame = false;  ///< it was kept during the run

@@ -222,13 +222,13 @@ std::vector<std::pair<std::string, std::string>> RunFile::provenance() const {
   return entries;
 }
 
-HeightGrid RunFrames::surface(int k) {
+const HeightField& RunFrames::surface(int k) {
   if (!surface_ || k < applied_ - 1) {
-    surface_.emplace(run_.initial(), run_.cell_size());
+    surface_ = run_.initial_bed();
     applied_ = 0;
   }
   for (; applied_ <= k; ++applied_) tiles_read_ += run_.apply_frame(applied_, *surface_);
-  return surface_->grid();
+  return *surface_;
 }
 
 LastSurface last_surface(const RunFile& run) {

@@ -63,8 +63,9 @@ class RunFrames {
  public:
   explicit RunFrames(const RunFile& run) : run_(run) {}
 
-  /// Frame k, which the run must hold. Going back, it begins at the initial surface again.
-  HeightGrid surface(int k);
+  /// Frame k, which the run must hold, until the next call. Going back, it begins at the initial surface
+  /// again.
+  const HeightField& surface(int k);
   std::int64_t tiles_read() const { return tiles_read_; }
 
  private:

@@ -70,9 +70,7 @@ Json sand_part(const RunFile& run, const LastSurface& last) {
   RunFrames frames(run);
   for (std::size_t i = 0; i < shown; ++i) {
     const std::size_t k = i * times.size() / shown;
-    if (times[k] > 0.0)
-      part.add(fmt::format("{:.3g} s", times[k]),
-               HeightField(frames.surface(static_cast<int>(k)), initial.cell_size()));
+    if (times[k] > 0.0) part.add(fmt::format("{:.3g} s", times[k]), frames.surface(static_cast<int>(k)));
   }
   part.add(last.name, last.surface);
   return part.json();

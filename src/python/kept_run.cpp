@@ -144,7 +144,7 @@ std::shared_ptr<KeptRun> read_run(const std::filesystem::path& path) {
   run->frame_times = file.frame_times();
   RunFrames frames(file);
   for (std::size_t k = 0; k < run->frame_times.size(); ++k)
-    append(run->frames, frames.surface(static_cast<int>(k)));
+    append(run->frames, frames.surface(static_cast<int>(k)).grid());
   run->summary = summary_of_file(file, *run);
   return run;
 }

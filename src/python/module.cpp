@@ -102,7 +102,8 @@ py::array picture(const SceneHere& here, const py::object& heights, const py::ob
     const WithoutLock let_go;
     RenderSubject subject;
     subject.view = scene.view;
-    subject.start = start_heights(before);
+    const double cell_size = scene.bed.width / static_cast<double>(shown.cols());
+    subject.start = start_heights(HeightField(before, cell_size));
     HeightGrid change;
     if (scene.view.style == RenderStyle::difference) {
       change = shown - before;
@@ -117,7 +118,6 @@ py::array picture(const SceneHere& here, const py::object& heights, const py::ob
             turned(tool_surface(tool), rotation_of(hand.normalized()) * own_rotation(tool)));
       }
     }
-    const double cell_size = scene.bed.width / static_cast<double>(shown.cols());
     HeightFieldRenderer renderer(static_cast<int>(shown.rows()), static_cast<int>(shown.cols()), cell_size);
     image = renderer.render(HeightField(shown, cell_size, scene.bed.shape), subject);
   }

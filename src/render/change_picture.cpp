@@ -1,10 +1,11 @@
 #include "render/change_picture.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sandstroke {
 
-RenderSubject subject_of_change(const HeightGrid& initial, const HeightGrid& last, const CellRange& stroke,
+RenderSubject subject_of_change(const HeightField& initial, const HeightField& last, const CellRange& stroke,
                                 const ViewSettings& view, double contour_interval) {
   RenderSubject subject;
   subject.view = view;
@@ -12,11 +13,15 @@ RenderSubject subject_of_change(const HeightGrid& initial, const HeightGrid& las
   subject.focus = stroke;
   subject.start = start_heights(initial);
   if (view.style == RenderStyle::difference) {
-    const double most = (last - initial).abs().maxCoeff();
+    double most = 0.0;
+    visit_cells_of_both(initial, last, [&](int, int, double before, double after) {
+      most = std::max(most, std::abs(after - before));
+    });
     subject.range = value_range(-most, most, ColourScale::diverging);
   } else {
-    subject.range = value_range(std::min(subject.start->lowest, last.minCoeff()),
-                                std::max(subject.start->highest, last.maxCoeff()), ColourScale::sequential);
+    const StartHeights end = start_heights(last);
+    subject.range = value_range(std::min(subject.start->lowest, end.lowest),
+                                std::max(subject.start->highest, end.highest), ColourScale::sequential);
   }
   return subject;
 }
@@ -28,10 +33,9 @@ Image ChangePainter::draw(const HeightField& initial, const HeightField& last, c
     bed_ = last;
     renderer_ = std::make_unique<HeightFieldRenderer>(last.rows(), last.cols(), last.cell_size());
   }
-  const HeightGrid before = initial.grid(), after = last.grid();
-  RenderSubject subject = subject_of_change(before, after, stroke, view);
+  RenderSubject subject = subject_of_change(initial, last, stroke, view);
   HeightGrid difference;
-  if (view.style == RenderStyle::difference) difference = after - before;
+  if (view.style == RenderStyle::difference) difference = last.grid() - initial.grid();
   subject.difference = &difference;
   return renderer_->render(last, subject);
 }

@@ -10,7 +10,7 @@ namespace sandstroke {
 /// How to show surfaces between an initial and a last one [m]. The initial one sets the camera of all. Their
 /// colour scale is that of both together. stroke: the cells that view stroke frames. contour_interval [m]: 0
 /// = a round one.
-RenderSubject subject_of_change(const HeightGrid& initial, const HeightGrid& last, const CellRange& stroke,
+RenderSubject subject_of_change(const HeightField& initial, const HeightField& last, const CellRange& stroke,
                                 const ViewSettings& view, double contour_interval = 0.0);
 
 /// Draws the last surfaces of runs, one after the other. Beds of one size start the graphics system only

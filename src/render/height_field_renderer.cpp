@@ -283,7 +283,7 @@ Image HeightFieldRenderer::Drawing::render(const HeightField& surface, const Ren
     image_ = Image(view.width, view.height);
   }
 
-  wall_radius_ = surface.shape() == BedShape::round ? surface.wall_radius() : 0.0;
+  wall_radius_ = subject.shape.value_or(surface.shape()) == BedShape::round ? surface.wall_radius() : 0.0;
   counters = {};
   counters.tiles_changed = surface_.update(surface);
   const Sun sun{view.light_azimuth, view.light_elevation};
@@ -292,7 +292,7 @@ Image HeightFieldRenderer::Drawing::render(const HeightField& surface, const Ren
   if (view.style != RenderStyle::sand) legend = prepare_values(subject);
   const double legend_part =
       legend ? static_cast<double>(legend_width(*legend, view.height)) / view.width : 0.0;
-  const StartHeights start = subject.start ? *subject.start : start_heights(surface.grid());
+  const StartHeights start = subject.start ? *subject.start : start_heights(surface);
   box_.update(bed_, start);
   const Camera camera = camera_for(subject, start, legend_part);
 

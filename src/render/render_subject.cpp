@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace sandstroke {
 
@@ -22,11 +24,31 @@ CellRange framed_cells(const CellRange& focus, int rows, int cols, double cell_s
           std::max(0, focus.col_begin - grow), std::min(cols, focus.col_end + grow)};
 }
 
-StartHeights start_heights(const HeightGrid& surface) {
-  const Eigen::Index last_row = surface.rows() - 1, last_col = surface.cols() - 1;
-  return {surface.minCoeff(), surface.maxCoeff(),
-          std::max({surface.row(0).maxCoeff(), surface.row(last_row).maxCoeff(), surface.col(0).maxCoeff(),
-                    surface.col(last_col).maxCoeff()})};
+StartHeights start_heights(const HeightField& surface) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  StartHeights found{infinite, -infinite, -infinite};
+  const auto take = [&](int row, int col, double height) {
+    found.lowest = std::min(found.lowest, height);
+    found.highest = std::max(found.highest, height);
+    if (row == 0 || row == surface.rows() - 1 || col == 0 || col == surface.cols() - 1)
+      found.border = std::max(found.border, height);
+  };
+  std::vector<double> heights(HeightField::tile_area);
+  for (int tile = 0; tile < surface.tile_count(); ++tile) {
+    const CellRange cells = surface.tile_cells(tile);
+    if (surface.slot_of(tile) < 0) {
+      if (const std::optional<double> level = surface.untouched().level(surface, cells)) {
+        take(cells.row_begin, cells.col_begin, *level);
+        take(cells.row_end - 1, cells.col_end - 1, *level);
+        continue;
+      }
+    }
+    surface.read_tile(tile, heights.data());
+    for (int row = 0; row < cells.rows(); ++row)
+      for (int col = 0; col < cells.cols(); ++col)
+        take(cells.row_begin + row, cells.col_begin + col, heights[row * HeightField::tile_side + col]);
+  }
+  return found;
 }
 
 CellRange cells_under(const std::vector<Eigen::Vector3d>& tips, double radius, const BedGeometry& bed,

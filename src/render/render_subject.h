@@ -35,7 +35,7 @@ struct StartHeights {
   double border = 0.0;  ///< the highest along the bed's border
   bool operator==(const StartHeights&) const = default;
 };
-StartHeights start_heights(const HeightGrid& surface);
+StartHeights start_heights(const HeightField& surface);
 
 /// Everything that a picture shows besides the surface.
 struct RenderSubject {
@@ -45,6 +45,7 @@ struct RenderSubject {
   const HeightGrid* difference = nullptr;  ///< m, the colours of style difference; of the bed's shape
   std::optional<ValueRange> range;         ///< of the colours; else that of the values shown
   std::optional<StartHeights> start;       ///< else those of the surface itself
+  std::optional<BedShape> shape;           ///< else that of the surface itself
   double contour_interval = 0.0;           ///< m; 0 = a round one that gives about a dozen lines
   bool box = true;                         ///< the wall around the bed
   std::optional<std::array<double, 3>> background;  ///< sRGB in [0, 1], instead of the sky

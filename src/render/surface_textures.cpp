@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/error.h"
 #include "core/machine.h"
@@ -114,6 +115,10 @@ std::vector<SurfaceTextures::ChangedTile> SurfaceTextures::take_heights(const He
   std::vector<double> block(BedGeometry::tile_area);
   for (int tile = 0; tile < bed_.tile_count(); ++tile) {
     const CellRange cells = bed_.tile_cells(tile);
+    if (surface.slot_of(tile) < 0) {
+      const std::optional<double> level = surface.untouched().level(surface, cells);
+      if (level && is_level(tile, static_cast<double>(static_cast<float>(*level)))) continue;
+    }
     bool differs = false;
     surface.read_tile(tile, block.data());
     const auto row_of = [&](int row) { return block.data() + side * (row - cells.row_begin); };
@@ -205,10 +210,13 @@ void SurfaceTextures::mark_shading(const CellRange& cells, double relief) {
       shading_outdated_[bed_.tile_index(r, c)] = 1;
 }
 
+bool SurfaceTextures::is_level(int tile, double height) const {
+  return details_[tile].lowest == height && details_[tile].highest == height;
+}
+
 void SurfaceTextures::mark_uneven() {
   for (int tile = 0; tile < bed_.tile_count(); ++tile)
-    if (details_[tile].lowest != level_ || details_[tile].highest != level_)
-      mark_shading(patch(tile), highest_ - lowest_);
+    if (!is_level(tile, level_)) mark_shading(patch(tile), highest_ - lowest_);
 }
 
 void SurfaceTextures::update_shading(const Sun& sun) {

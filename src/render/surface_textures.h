@@ -67,6 +67,8 @@ class SurfaceTextures {
   };
   /// Begins with a level surface, in full light: what is like it need not be computed.
   void begin_level(float height);
+  /// Whether all heights of a tile's patch are this [m].
+  bool is_level(int tile, double height) const;
   /// Keeps the heights of tiles that differ. Error: input, where a height is not finite.
   std::vector<ChangedTile> take_heights(const HeightField& surface);
   void mark_shading(const CellRange& changed, double relief);

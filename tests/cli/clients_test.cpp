@@ -128,7 +128,7 @@ TEST_F(CliClients, ParaViewOpensARunWithEachOfItsReadersAndWarpsIt) {
     RunFrames frames(run);
     for (std::size_t k = 0; k < steps.size(); ++k) {
       const bool is_last = k + 1 == steps.size();
-      const HeightGrid heights = is_last ? run.final() : frames.surface(static_cast<int>(k));
+      const HeightGrid heights = is_last ? run.final() : frames.surface(static_cast<int>(k)).grid();
       EXPECT_NEAR(steps[k]["time"].get<double>(), times[k], 1.1e-3) << reader;  // its end is a tick later
       EXPECT_EQ(steps[k]["low"], heights.minCoeff()) << reader << k;
       EXPECT_EQ(steps[k]["high"], heights.maxCoeff()) << reader << k;

@@ -127,8 +127,8 @@ TEST(CliExport, SurfacesAreThoseThatTheRunHolds) {
   RunFrames frames(run);
   for (const auto& [name, surface] : {std::pair<std::string, HeightGrid>{"initial", run.initial()},
                                       {"final", run.final()},
-                                      {"0", frames.surface(0)},
-                                      {"2", frames.surface(2)}}) {
+                                      {"0", frames.surface(0).grid()},
+                                      {"2", frames.surface(2).grid()}}) {
     expect_export(folder, name + ".npy", {"--frame", name});
     EXPECT_TRUE(read_file(folder / (name + ".npy")).ends_with(bytes_of(surface))) << name;
   }

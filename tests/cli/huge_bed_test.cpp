@@ -53,7 +53,7 @@ TEST(CliHugeBed, AStrokeCostsWhatItCostsOnASmallBed) {
                       small = run_program({"run", "small.toml", "--threads", "1", "--frames", "10"}, folder);
   ASSERT_EQ(huge.exit_code, 0) << huge.err;
   ASSERT_EQ(small.exit_code, 0) << small.err;
-  EXPECT_LT(huge.peak_memory, 1.1 * small.peak_memory);
+  EXPECT_LT(huge.peak_memory, small.peak_memory + 3e6);  // its heights would take 34 GB
   EXPECT_LT(static_cast<double>(fs::file_size(folder / "huge.h5")),
             1.1 * static_cast<double>(fs::file_size(folder / "small.h5")));
   EXPECT_LT(fs::file_size(folder / "huge.h5"), 5'000'000u);

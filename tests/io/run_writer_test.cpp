@@ -245,7 +245,7 @@ TEST_F(RunWriterTest, AFrameHoldsTheTilesThatChangedSinceTheOneBefore) {
   const RunFile run(path_);
   EXPECT_EQ(run.frame_times(), times);
   RunFrames frames(run);
-  for (const int k : {3, 0, 2, 1}) EXPECT_TRUE((frames.surface(k) == surfaces[k]).all()) << k;
+  for (const int k : {3, 0, 2, 1}) EXPECT_TRUE((frames.surface(k).grid() == surfaces[k]).all()) << k;
 }
 
 TEST_F(RunWriterTest, SaysWhatItIsOfAndInWhichUnit) {

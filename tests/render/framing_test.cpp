@@ -41,7 +41,7 @@ TEST(Framing, APitDeeperThanTheBoxChangesItsOwnPixelsOnly) {
     subject.view.style = style;
     subject.view.azimuth = -90.0;
     subject.view.elevation = 25.0;
-    subject.start = start_heights(flat);
+    subject.start = start_heights(HeightField(flat, 0.01));
     subject.range = ValueRange{-0.5, 0.5};
     subject.difference = &flat;
     const Image without = picture_of(HeightField(flat, 0.01), subject);
@@ -65,19 +65,18 @@ TEST(Framing, APitDeeperThanTheBoxChangesItsOwnPixelsOnly) {
 }
 
 TEST(Framing, FilmsAndOtherRunsOfASceneHaveOneCamera) {
-  const HeightGrid start = HeightGrid::Constant(60, 80, 0.02);
-  HeightGrid little = start, much = start;
-  little(30, 40) -= 0.001;
-  much.block(10, 20, 30, 30) -= 0.4;
-  much.block(50, 60, 5, 5) += 0.1;
+  const HeightGrid level = HeightGrid::Constant(60, 80, 0.02);
+  HeightGrid scratch = level, pit = level;
+  scratch(30, 40) -= 0.001;
+  pit.block(10, 20, 30, 30) -= 0.4;
+  pit.block(50, 60, 5, 5) += 0.1;
+  const HeightField start(level, 0.01), little(scratch, 0.01), much(pit, 0.01);
   for (const ViewName name : {ViewName::overview, ViewName::stroke, ViewName::top}) {
     ViewSettings view = small_subject().view;
     view.name = name;
     const CellRange stroke{20, 30, 20, 60};
-    const Image before_little =
-        picture_of(HeightField(start, 0.01), subject_of_change(start, little, stroke, view));
-    const Image before_much =
-        picture_of(HeightField(start, 0.01), subject_of_change(start, much, stroke, view));
+    const Image before_little = picture_of(start, subject_of_change(start, little, stroke, view));
+    const Image before_much = picture_of(start, subject_of_change(start, much, stroke, view));
     EXPECT_TRUE(before_little.rgb == before_much.rgb) << view_names[static_cast<std::size_t>(name)];
   }
 }

@@ -112,7 +112,7 @@ TEST(HeightFieldRenderer, AFilmsFramesEqualFreshPicturesAndTakeFewPixels) {
       RenderSubject subject = small_picture();
       subject.view.elevation = elevation;
       subject.view.light_elevation = sun;
-      subject.start = start_heights(heights);
+      subject.start = start_heights(HeightField(heights, 0.005));
       for (int frame = 0; frame < 6; ++frame) {
         const int row = 150 + 9 * frame, col = 190 + 13 * frame;
         heights.block(row, col, 5, 7) = frame % 2 ? -0.02 : 0.01;

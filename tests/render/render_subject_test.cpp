@@ -29,7 +29,7 @@ TEST(RenderSubject, StartHeightsAreThoseOfTheBedAndOfItsBorder) {
   for (const auto& [row, col] : {std::pair{0, 2}, {3, 1}, {2, 0}, {1, 4}}) {
     HeightGrid raised = surface;
     raised(row, col) = 0.2;
-    const StartHeights start = start_heights(raised);
+    const StartHeights start = start_heights(HeightField(raised, 0.01));
     EXPECT_EQ(start.lowest, -0.3);
     EXPECT_EQ(start.highest, 0.7);
     EXPECT_EQ(start.border, 0.2) << row << " " << col;

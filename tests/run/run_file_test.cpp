@@ -71,9 +71,9 @@ TEST_F(RunFileTest, HoldsWhatTheDesignPromises) {
   EXPECT_EQ(times[0], 0.0);
   EXPECT_DOUBLE_EQ(times[2], 0.4);
   RunFrames frames(file);
-  EXPECT_TRUE((frames.surface(0) == file.initial()).all());
-  EXPECT_FALSE((frames.surface(static_cast<int>(times.size()) - 1) == file.initial()).all());
-  EXPECT_NEAR(frames.surface(2).sum(), 0.0, 1e-12);
+  EXPECT_TRUE((frames.surface(0).grid() == file.initial()).all());
+  EXPECT_FALSE((frames.surface(static_cast<int>(times.size()) - 1).grid() == file.initial()).all());
+  EXPECT_NEAR(frames.surface(2).grid().sum(), 0.0, 1e-12);
 
   const Hdf5Reader plain(folder_ / "a.h5");
   for (const std::string& column : plain.members("/trace"))
@@ -127,9 +127,9 @@ TEST_F(RunFileTest, FramesHoldTilesThatCameIntoBeingBetweenThem) {
   const int count = static_cast<int>(frames.grids.size());
   RunFrames in_sequence(file), backwards(file);
   for (int k = 0; k < count; ++k) {
-    EXPECT_TRUE((in_sequence.surface(k) == frames.grids[k]).all()) << k;
-    EXPECT_TRUE((in_sequence.surface(k) == frames.grids[k]).all()) << k << " again";
-    EXPECT_TRUE((backwards.surface(count - 1 - k) == frames.grids[count - 1 - k]).all()) << k;
+    EXPECT_TRUE((in_sequence.surface(k).grid() == frames.grids[k]).all()) << k;
+    EXPECT_TRUE((in_sequence.surface(k).grid() == frames.grids[k]).all()) << k << " again";
+    EXPECT_TRUE((backwards.surface(count - 1 - k).grid() == frames.grids[count - 1 - k]).all()) << k;
   }
   std::int64_t tiles_held = 0;
   const Hdf5Reader plain(folder_ / "a.h5");
