@@ -27,7 +27,7 @@ CellRange RunPainter::stroke_cells() {
   for (const TickRecord& tick : *trace_)
     if (!std::isnan(tick.level)) tips.push_back(tip_of(scene_.device, tick.hand.position));
   return cells_under(tips, tool_reach(scene_.tool), BedGeometry(run_.rows(), run_.cols(), run_.cell_size()),
-                     start_heights(initial_).highest);
+                     initial_.highest());
 }
 
 Image RunPainter::draw(const HeightField& surface, std::optional<double> tool_time) {

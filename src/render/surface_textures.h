@@ -72,7 +72,7 @@ class SurfaceTextures {
   /// Keeps the heights of tiles that differ. Error: input, where a height is not finite.
   std::vector<ChangedTile> take_heights(const HeightField& surface);
   void mark_shading(const CellRange& changed, double relief);
-  /// Marks what tiles that are not level can shade.
+  /// Marks the tiles that uneven tiles can shade, these included.
   void mark_uneven();
   void upload_shading(const std::vector<int>& tiles);
 
@@ -83,7 +83,8 @@ class SurfaceTextures {
   CellRange shaded_;
   std::vector<char> shading_outdated_;
   Sun sun_used_;
-  double level_ = 0.0, lowest_ = 0.0, highest_ = 0.0;
+  double level_ = 0.0;  // m, of begin_level()
+  double lowest_ = 0.0, highest_ = 0.0;
   bool filled_ = false, filtered_ = false, shading_filtered_ = false;
   GlObject height_texture_, shading_texture_;
 };
