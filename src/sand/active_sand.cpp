@@ -1,15 +1,18 @@
 #include "sand/active_sand.h"
 
-#include "sand/steep_tiles.h"
-
 #include <algorithm>
+
+#include "sand/slope_kernels.h"
+#include "sand/steep_tiles.h"
 
 namespace sandstroke {
 
-ActiveSand::ActiveSand(const TalusLaw& law, double cell_size, Givers givers, std::int64_t worth_threads)
+ActiveSand::ActiveSand(const TalusLaw& law, double cell_size, Givers givers, HeightField* talus_factors,
+                       std::int64_t worth_threads)
     : law_(law),
       worth_threads_(worth_threads),
       stable_slope_(stable_slope(law, cell_size)),
+      talus_factors_(talus_factors),
       activity_(givers) {}
 
 void ActiveSand::begin(HeightField& bed) {
@@ -19,7 +22,7 @@ void ActiveSand::begin(HeightField& bed) {
   activity_.wake_disturbed(bed, stable_slope_);
 }
 
-void ActiveSand::take_part(int slot) {
+void ActiveSand::take_part(const HeightField& bed, int slot) {
   if (numbers_.size() <= static_cast<std::size_t>(slot)) {
     numbers_.resize(slot + 1, -1);
     group_residuals_.resize(slot + 1);
@@ -29,6 +32,21 @@ void ActiveSand::take_part(int slot) {
   numbers_[slot] = static_cast<int>(joined_++);
   if (tiles_.size() < joined_) tiles_.push_back(std::make_unique<RelaxedTile>());
   tile(slot).patch.begin(slot);
+  if (talus_factors_) load_slope_weights(bed.tile_of(slot), tile(slot).slope_weights);
+}
+
+void ActiveSand::load_slope_weights(int tile, std::unique_ptr<TilePatch>& weights) {
+  for (int row_step = -1; row_step <= 1; ++row_step)
+    for (int col_step = -1; col_step <= 1; ++col_step)
+      if (const int beside = talus_factors_->tile_beside(tile, row_step, col_step); beside >= 0)
+        talus_factors_->allocate(beside);
+  if (!weights) weights = std::make_unique<TilePatch>();
+  weights->load_whole(*talus_factors_, talus_factors_->slot_of(tile));
+  for (int row = -TilePatch::rim; row < TilePatch::side + TilePatch::rim; ++row)
+    for (int col = -TilePatch::rim; col < TilePatch::side + TilePatch::rim; ++col) {
+      double& one = weights->heights(row)[col];
+      one = 1.0 / (one * one);
+    }
 }
 
 void ActiveSand::look_at_active_cells() {

@@ -13,9 +13,10 @@ namespace sandstroke {
 
 /// The working data of a tile while it takes part in a relaxation.
 struct RelaxedTile {
-  TilePatch patch;    ///< its heights; the bed keeps the old ones until write_back()
-  TileFlow flow;      ///< flow of the last pass
-  CellFlags changed;  ///< cells that the last pass changed, in the flow's rows
+  TilePatch patch;                           ///< its heights; the bed keeps the old ones until write_back()
+  TileFlow flow;                             ///< flow of the last pass
+  CellFlags changed;                         ///< cells that the last pass changed, in the flow's rows
+  std::unique_ptr<TilePatch> slope_weights;  ///< 1 / talus factor^2, if the sand has such factors
 };
 
 /// The sand of a bed that can move, and its flow by one law. The steppers (passes, rkl) are built on it. A
@@ -27,9 +28,10 @@ class ActiveSand {
   // tile with any active cell costs as much as 400 more cells (measured: tests/bench/active_sand_bench.cpp).
   static constexpr std::int64_t work_worth_threads = 8'000, work_per_tile = 400;
 
-  /// givers: near_changes for super-steps.
+  /// givers: near_changes for super-steps. talus_factors: the talus slope of each cell over the law's
+  /// (isotropic only), or null; its tiles are allocated as they are needed.
   ActiveSand(const TalusLaw& law, double cell_size, Givers givers = Givers::all,
-             std::int64_t worth_threads = work_worth_threads);
+             HeightField* talus_factors = nullptr, std::int64_t worth_threads = work_worth_threads);
 
   /// Begins a relaxation: activates the sand around the cells that were set since the last one.
   void begin(HeightField& bed);
@@ -89,7 +91,8 @@ class ActiveSand {
   void for_active_tiles(const Body& body) const {
     parallel_for(tiles().size(), work_ >= worth_threads_, [&](std::size_t i) { body(tiles()[i]); });
   }
-  void take_part(int slot);
+  void take_part(const HeightField& bed, int slot);
+  void load_slope_weights(int tile, std::unique_ptr<TilePatch>& weights);
   void look_at_active_cells();
   void load_rim(const HeightField& bed, TilePatch& patch, RowSpan rows, const CellFlags& cells) const;
   void load_givers(const HeightField& bed, int slot, RowSpan rows, FlowScratch& scratch) const;
@@ -97,6 +100,7 @@ class ActiveSand {
   TalusLaw law_;
   std::int64_t worth_threads_;
   double stable_slope_;  // rise over run
+  HeightField* talus_factors_;
   TileActivity activity_;
 
   // Tiles of this relaxation, by number. Those beyond joined_ are left from earlier ones.
@@ -116,7 +120,7 @@ class ActiveSand {
 template <class InStep, class Join>
 double ActiveSand::compute_flow(HeightField& bed, const InStep& in_step, const Join& join) {
   for (const int slot : tiles()) {
-    take_part(slot);
+    take_part(bed, slot);
     join(slot);
   }
   look_at_active_cells();
@@ -130,7 +134,8 @@ double ActiveSand::compute_flow(HeightField& bed, const InStep& in_step, const J
     RelaxedTile& one = tile(slot);
     load_rim(bed, one.patch, seen_rows(slot), cells(slot));
     FlowScratch& scratch = FlowScratch::of_this_thread();
-    const FlowInStep step = in_step(slot, one);
+    FlowInStep step = in_step(slot, one);
+    step.slope_weights = one.slope_weights.get();
     if (step.first) load_givers(bed, slot, activity_.rows(slot), scratch);
     sandstroke::compute_flow(law_, one.patch, cells(slot), activity_.rows(slot), step, scratch, one.flow);
   });
@@ -142,7 +147,26 @@ double ActiveSand::compute_flow(HeightField& bed, const InStep& in_step, const J
 // One relaxer per method.
 std::unique_ptr<Relaxer> make_plain_relaxer(const RelaxationSettings& settings, double cell_size);
 std::unique_ptr<Relaxer> make_tile_relaxer(const RelaxationSettings& settings, double cell_size);
-std::unique_ptr<Relaxer> make_rkl_relaxer(const RelaxationSettings& settings, double cell_size);
+std::unique_ptr<Relaxer> make_multilevel_relaxer(const RelaxationSettings& settings, double cell_size);
+
+/// How far a relaxation by super-steps has come, between its parts.
+struct SuperStepProgress {
+  double travelled = 0.0;  ///< m: how far sand has moved
+  /// c of the next super-step, as a part of the largest. It doubles from step to step, so that a violent
+  /// start has small steps.
+  double part_of_share = 1.0 / 8.0;
+};
+/// rkl.
+class SuperStepper : public Relaxer {
+ public:
+  /// Goes on with a relaxation for at most so many passes. What still moves then stays awake for the next
+  /// part. after_pass counts from this part's beginning.
+  virtual RelaxationOutcome relax_part(HeightField& bed, SuperStepProgress& progress, std::int64_t passes,
+                                       const PassWatcher& after_pass) = 0;
+};
+/// talus_factors: as for ActiveSand.
+std::unique_ptr<SuperStepper> make_super_stepper(const RelaxationSettings& settings, double cell_size,
+                                                 HeightField* talus_factors = nullptr);
 /// Heap memory [bytes] of the rkl relaxer besides ActiveSand, for each tile that takes part.
 std::size_t rkl_bytes_per_tile();
 

@@ -12,53 +12,13 @@
 #include <hwy/highway.h>
 
 #include "sand/face_flow-inl.h"
+#include "sand/slopes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sandstroke {
 namespace HWY_NAMESPACE {
 
-constexpr int groups = side / group;
-
-/// The lower of both; a wall (NaN) as `a` is ignored.
-HWY_INLINE V lower(V a, V b) {
-#if HWY_ARCH_X86
-  return hn::Min(a, b);  // min*pd: the second operand where one is NaN
-#else
-  return hn::IfThenElse(a < b, a, b);
-#endif
-}
-
 HWY_INLINE V above(V x, V threshold) { return where(x > threshold, x); }
-
-/// The heights, or the factors, of `lanes` cells from column `c`, and of their axis neighbours.
-struct Around {
-  V m, w, e, n, s;
-  HWY_INLINE Around(const double* row, int c)
-      : m(hn::Load(d, row + c)),
-        w(hn::LoadU(d, row + c - 1)),
-        e(hn::LoadU(d, row + c + 1)),
-        n(hn::Load(d, row + c - TilePatch::stride)),
-        s(hn::Load(d, row + c + TilePatch::stride)) {}
-};
-struct Corners {
-  V nw, ne, sw, se;
-  HWY_INLINE Corners(const double* row, int c)
-      : nw(hn::LoadU(d, row + c - TilePatch::stride - 1)),
-        ne(hn::LoadU(d, row + c - TilePatch::stride + 1)),
-        sw(hn::LoadU(d, row + c + TilePatch::stride - 1)),
-        se(hn::LoadU(d, row + c + TilePatch::stride + 1)) {}
-};
-
-// The steepest drops of a cell, at least 0: subtraction is monotone, so the drop to the lowest neighbour is
-// the largest of the drops.
-HWY_INLINE V axis_drop(const Around& a) { return a.m - lower(a.w, lower(a.e, lower(a.n, lower(a.s, a.m)))); }
-HWY_INLINE V diagonal_drop(V m, const Corners& k) {
-  return m - lower(k.nw, lower(k.se, lower(k.ne, lower(k.sw, m))));
-}
-HWY_INLINE V squared_slope(const Around& a) {
-  const V gx = a.m - lower(a.w, lower(a.e, a.m)), gy = a.m - lower(a.n, lower(a.s, a.m));
-  return gx * gx + gy * gy;
-}
 
 // The following types compute the factors of the cells in a vector: a cell gives each lower neighbour factor
 // x (m - m_i). They return flags of the factors that are not 0.
@@ -75,7 +35,8 @@ struct PaperFactors {
         share(all(law.share)) {}
 
   template <class Sand>
-  HWY_INLINE unsigned operator()(const double* row, int c, double* factors, Mask may_give, Sand& sand) const {
+  HWY_INLINE unsigned operator()(const double* row, int, int c, double* factors, Mask may_give,
+                                 Sand& sand) const {
     const Around a(row, c);
     const Corners k(row, c);
     const V axis = axis_drop(a), diagonal = diagonal_drop(a.m, k);
@@ -95,19 +56,24 @@ struct PaperFactors {
   }
 };
 
-/// The factor is c (1 - T / |g|), with |g| as a drop.
+/// The factor is c (1 - T / |g|), with |g| as a drop. by_cell: each cell weighs its |g|^2.
+template <bool by_cell>
 struct IsotropicFactors {
   V T, limit, surely_at_rest, share, one;
-  explicit IsotropicFactors(const TalusLaw& law)
+  const TilePatch* weights;
+  explicit IsotropicFactors(const TalusLaw& law, const TilePatch* weights = nullptr)
       : T(all(law.axis_drop)),
         limit(all(law.axis_limit)),
         surely_at_rest(all(law.axis_limit * law.axis_limit * (1.0 - 1e-14))),
         share(all(law.share)),
-        one(all(1.0)) {}
+        one(all(1.0)),
+        weights(weights) {}
 
   template <class Sand>
-  HWY_INLINE unsigned operator()(const double* row, int c, double* factors, Mask may_give, Sand& sand) const {
-    const V square = squared_slope(Around(row, c));
+  HWY_INLINE unsigned operator()(const double* heights, int row, int c, double* factors, Mask may_give,
+                                 Sand& sand) const {
+    V square = squared_slope(Around(heights, c));
+    if constexpr (by_cell) square *= hn::Load(d, weights->heights(row) + c);
     sand.meet(square, hn::Zero(d));
     if (hn::AllFalse(d, square > surely_at_rest)) {
       hn::Store(hn::Zero(d), d, factors + c);
@@ -134,7 +100,7 @@ HWY_INLINE WideRow factor_row(const Factors& factors_of, const double* heights, 
   const auto one_group = [&](int begin) {
     unsigned flags = 0;
     for (int c = begin; c < begin + group; c += lanes)
-      flags |= factors_of(heights, c, factors, sand.may_give(row, c), sand) << (c - begin);
+      flags |= factors_of(heights, row, c, factors, sand.may_give(row, c), sand) << (c - begin);
     return flags;
   };
   WideRow moving{};
@@ -182,13 +148,13 @@ struct GainOf {
   }
 };
 
-template <class Factors, class Gain, class Sand, class Sink>
-HWY_INLINE void flow_of(const TalusLaw& law, const TilePatch& patch, const CellFlags& active, RowSpan rows,
-                        Sand& sand, Sink& sink, FlowScratch& scratch, TileFlow& flow) {
+template <class Gain, class Factors, class Sand, class Sink>
+HWY_INLINE void flow_of(const Factors& factors, const TalusLaw& law, const TilePatch& patch,
+                        const CellFlags& active, RowSpan rows, Sand& sand, Sink& sink, FlowScratch& scratch,
+                        TileFlow& flow) {
   const auto active_row = [&](int row) { return row < rows.begin || row >= rows.end ? 0 : active[row]; };
   const auto factors_in = [&](int row) { return scratch.factors.data() + TilePatch::start(row); };
   std::array<WideRow, side + 2> moving;  // from row -1: the rows of the span and one on each side
-  const Factors factors(law);
   for (int row = rows.begin - 1; row <= rows.end; ++row)
     moving[row + 1] = factor_row(factors, patch.heights(row), factors_in(row), row,
                                  widened(active_row(row - 1) | active_row(row) | active_row(row + 1)), sand);
@@ -210,9 +176,13 @@ void ComputeFlow(const TalusLaw& law, const TilePatch& patch, const CellFlags& a
   const auto compute = [&](auto sand, auto sink) {
     switch (law.law) {
       case RelaxationLaw::paper:
-        return flow_of<PaperFactors, GainOf<true>>(law, patch, active, rows, sand, sink, scratch, flow);
+        return flow_of<GainOf<true>>(PaperFactors(law), law, patch, active, rows, sand, sink, scratch, flow);
       case RelaxationLaw::isotropic:
-        return flow_of<IsotropicFactors, GainOf<false>>(law, patch, active, rows, sand, sink, scratch, flow);
+        if (in_step.slope_weights)
+          return flow_of<GainOf<false>>(IsotropicFactors<true>(law, in_step.slope_weights), law, patch,
+                                        active, rows, sand, sink, scratch, flow);
+        return flow_of<GainOf<false>>(IsotropicFactors<false>(law), law, patch, active, rows, sand, sink,
+                                      scratch, flow);
       case RelaxationLaw::faces:
         return face_flow(law, patch, active, rows, sand, sink, scratch, flow);
     }
@@ -239,31 +209,6 @@ void ApplyFlow(const TileFlow& flow, TilePatch& patch, CellFlags& changed) {
   }
 }
 
-void ComputeResiduals(const TalusLaw& law, const TilePatch& patch, const CellFlags& cells, double* steepest) {
-  const bool paper = law.law == RelaxationLaw::paper, faces = law.law == RelaxationLaw::faces;
-  const RowSpan span = row_span(cells);
-  for (int row = span.begin; row < span.end; ++row) {
-    for (unsigned wanted = groups_of(cells[row]); wanted; wanted &= wanted - 1) {
-      const int g = std::countr_zero(wanted);
-      Drops drops;
-      for (int c = g * group; c < (g + 1) * group; c += lanes) {
-        const double* heights = patch.heights(row);
-        if (faces) {  // each face counts for one cell
-          drops.axis = higher(FaceSlope(heights + c, 1, TilePatch::stride).square, drops.axis);
-          drops.axis = higher(FaceSlope(heights + c, TilePatch::stride, 1).square, drops.axis);
-          continue;
-        }
-        const Around a(heights, c);
-        drops.axis = higher(paper ? axis_drop(a) : squared_slope(a), drops.axis);
-        if (paper) drops.diagonal = higher(diagonal_drop(a.m, Corners(heights, c)), drops.diagonal);
-      }
-      const double axis = largest(drops.axis), diagonal = largest(drops.diagonal);
-      steepest[row * groups + g] = paper ? std::max(axis / law.axis_drop, diagonal / law.diagonal_drop) - 1.0
-                                         : std::sqrt(axis) / law.axis_drop - 1.0;
-    }
-  }
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace sandstroke
 HWY_AFTER_NAMESPACE();
@@ -273,7 +218,6 @@ namespace sandstroke {
 
 HWY_EXPORT(ComputeFlow);
 HWY_EXPORT(ApplyFlow);
-HWY_EXPORT(ComputeResiduals);
 
 FlowScratch& FlowScratch::of_this_thread() {
   thread_local FlowScratch scratch;
@@ -287,10 +231,5 @@ void compute_flow(const TalusLaw& law, const TilePatch& patch, const CellFlags& 
 void apply_flow(const TileFlow& flow, TilePatch& patch, CellFlags& changed) {
   HWY_DYNAMIC_DISPATCH(ApplyFlow)(flow, patch, changed);
 }
-void compute_residuals(const TalusLaw& law, const TilePatch& patch, const CellFlags& cells,
-                       double* steepest) {
-  HWY_DYNAMIC_DISPATCH(ComputeResiduals)(law, patch, cells, steepest);
-}
-
 }  // namespace sandstroke
 #endif

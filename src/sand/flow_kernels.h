@@ -45,6 +45,8 @@ struct FlowScratch {
 struct FlowInStep {
   const FirstFlow* first = nullptr;   ///< set: only the scratch's givers may give; null: all cells may
   std::optional<StageAhead> ahead{};  ///< set: takes this stage, and leaves flow.gain alone
+  /// set (law isotropic only): what multiplies |g|^2 in each cell, so that its talus slope is another
+  const TilePatch* slope_weights = nullptr;
 };
 
 /// Computes the law's flow of the active cells. All of them lie in `rows`; the patch holds them and two cells
@@ -54,9 +56,5 @@ void compute_flow(const TalusLaw& law, const TilePatch& patch, const CellFlags& 
 
 /// heights += gain. Flags the cells whose height changed, in the flow's rows.
 void apply_flow(const TileFlow& flow, TilePatch& patch, CellFlags& changed);
-
-/// Computes slope / tan(talus) - 1 of the steepest cell in each group of 8 that holds a flagged cell, from a
-/// loaded patch. steepest: tile_area / 8 numbers, one per group; those of other groups are left alone.
-void compute_residuals(const TalusLaw& law, const TilePatch& patch, const CellFlags& cells, double* steepest);
 
 }  // namespace sandstroke

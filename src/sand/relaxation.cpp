@@ -39,13 +39,15 @@ std::size_t bytes_per_relaxed_tile(const RelaxationSettings& settings) {
   if (settings.method == RelaxationMethod::plain)
     return HeightField::bytes_per_tile() + 4 * sizeof(double) * BedGeometry::tile_area;
   return HeightField::bytes_per_tile() + ActiveSand::bytes_per_tile() +
-         (settings.method == RelaxationMethod::rkl ? rkl_bytes_per_tile() : 0);
+         (takes_super_steps(settings.method) ? rkl_bytes_per_tile() : 0);
 }
 
 std::unique_ptr<Relaxer> make_relaxer(const RelaxationSettings& settings, double cell_size) {
   switch (settings.method) {
     case RelaxationMethod::rkl:
-      return make_rkl_relaxer(settings, cell_size);
+      return make_super_stepper(settings, cell_size);
+    case RelaxationMethod::multilevel:
+      return make_multilevel_relaxer(settings, cell_size);
     case RelaxationMethod::plain:
       return make_plain_relaxer(settings, cell_size);
     case RelaxationMethod::passes:

@@ -13,16 +13,22 @@ namespace sandstroke {
 inline constexpr const char* relaxation_law_names[] = {"paper", "isotropic", "faces"};
 /// passes: Jacobi passes of the law over the sand that can move. rkl: super time steps, which reach the rest
 /// of many small steps of the law in far fewer passes (relaxation_rkl.cpp). plain: talus_pass over all cells;
-/// slow, with the same bits as `passes`. Start there to write a law of your own.
-enum class RelaxationMethod { passes, rkl, plain };
-inline constexpr const char* relaxation_method_names[] = {"passes", "rkl", "plain"};
+/// slow, with the same bits as `passes`. Start there to write a law of your own. multilevel: rkl, helped by
+/// coarser beds where sand must move far (relaxation_multilevel.cpp); isotropic and faces only.
+enum class RelaxationMethod { passes, rkl, multilevel, plain };
+inline constexpr const char* relaxation_method_names[] = {"passes", "rkl", "multilevel", "plain"};
+/// Whether a method takes super-steps.
+constexpr bool takes_super_steps(RelaxationMethod method) {
+  return method == RelaxationMethod::rkl || method == RelaxationMethod::multilevel;
+}
 
 struct RelaxationSettings {
   RelaxationLaw law = RelaxationLaw::paper;
   RelaxationMethod method = RelaxationMethod::passes;
-  double talus_angle = 30.0;    ///< deg (angle of repose), above 0, below 90
-  double tolerance = 1e-3;      ///< a cell rests if its slope exceeds tan(talus) by at most this fraction
-  double step_tolerance = 0.1;  ///< rkl: error of a super-step, as a fraction of how far sand has moved
+  double talus_angle = 30.0;  ///< deg (angle of repose), above 0, below 90
+  double tolerance = 1e-3;    ///< a cell rests if its slope exceeds tan(talus) by at most this fraction
+  double step_tolerance =
+      0.1;  ///< rkl, multilevel: error of a super-step, as a fraction of how far sand has moved
   /// Hz, relaxations during a stroke; 0 = none by time
   double rate = published_relaxation_rate;
   double way = 0.0;         ///< tool radii that the tool moves in sand between relaxations; 0 = none by way

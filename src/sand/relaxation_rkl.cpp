@@ -39,8 +39,6 @@ TalusLaw ungated(const RelaxationSettings& settings, double cell_size) {
 // These constants were found on cones, rough beds and furrows (checked by tests/accuracy and tests/bench). c:
 // the isotropic law's limit. It also keeps the paper's law near its small steps.
 constexpr double largest_share = 0.25;
-// The fraction of c in the first step. It doubles from step to step, so that a violent start has small steps.
-constexpr double first_share = 1.0 / 8.0;
 // A step ends when sum F F0 falls below this fraction of sum F0^2. 0.05 takes a tenth more passes; with 0
 // momentum carries sand too far.
 constexpr double decayed = 0.02;
@@ -50,23 +48,30 @@ constexpr double decayed = 0.02;
 // pass instead of 72, with the same bits.
 constexpr std::int64_t work_worth_ahead = 20'000;
 
-class RklRelaxer : public Relaxer {
+class RklRelaxer : public SuperStepper {
  public:
-  RklRelaxer(const RelaxationSettings& settings, double cell_size)
+  RklRelaxer(const RelaxationSettings& settings, double cell_size, HeightField* talus_factors)
       : law_(talus_law(settings, cell_size)),
         step_tolerance_(settings.step_tolerance),
-        max_passes_(settings.max_passes),
+        most_passes_(settings.max_passes),
         largest_share_(std::min(law_.share, largest_share)),
-        sand_(ungated(settings, cell_size), cell_size, Givers::near_changes) {}
+        sand_(ungated(settings, cell_size), cell_size, Givers::near_changes, talus_factors) {}
 
   RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
+    SuperStepProgress progress;
+    return relax_part(bed, progress, most_passes_, after_pass);
+  }
+
+  RelaxationOutcome relax_part(HeightField& bed, SuperStepProgress& progress, std::int64_t passes,
+                               const PassWatcher& after_pass) override {
+    max_passes_ = passes;
     outcome_ = {};
     moved_ = {};
     low_ = std::numeric_limits<double>::infinity();
     high_ = -low_;
     ++step_;
     taken_in_ = 0;
-    travelled_ = 0.0;
+    travelled_ = progress.travelled;
     too_steep_ = false;
     const BedNow bed_now = [&]() -> const HeightField& {
       sand_.write_back(bed);
@@ -75,13 +80,14 @@ class RklRelaxer : public Relaxer {
     const auto told = [&] {
       if (after_pass) after_pass(outcome_.passes, bed_now);
     };
-    double share = largest_share_ * first_share;
+    double share = largest_share_ * progress.part_of_share;
     sand_.begin(bed);
     if (!sand_.at_rest()) compute_flow(bed);
     while (goes_on()) {
       super_step(bed, share, told);
       share = std::min(2.0 * share, largest_share_);
     }
+    progress = {travelled_, share / largest_share_};
     if (!too_steep_) sand_.rest();
     outcome_.moved_volume = moved_.value() * bed.cell_area();
     sand_.end(bed, outcome_);
@@ -254,14 +260,15 @@ class RklRelaxer : public Relaxer {
 
   TalusLaw law_;  // decides what rests
   double step_tolerance_;
-  std::int64_t max_passes_;
+  std::int64_t most_passes_;  // of a relaxation
   double largest_share_;
   ActiveSand sand_;
 
   std::vector<std::unique_ptr<StepTile>> tiles_;  // by number in sand_
   std::int64_t step_ = 0;                         // which super-step this is
 
-  // State of this relaxation.
+  // State of this relaxation, or of this part of it.
+  std::int64_t max_passes_ = 0;
   RelaxationOutcome outcome_;
   std::size_t taken_in_ = 0;  // how many tiles have taken part
   CompensatedSum moved_;
@@ -275,8 +282,9 @@ class RklRelaxer : public Relaxer {
 
 std::size_t rkl_bytes_per_tile() { return sizeof(RklRelaxer::StepTile) + sizeof(PatchHeights); }
 
-std::unique_ptr<Relaxer> make_rkl_relaxer(const RelaxationSettings& settings, double cell_size) {
-  return std::make_unique<RklRelaxer>(settings, cell_size);
+std::unique_ptr<SuperStepper> make_super_stepper(const RelaxationSettings& settings, double cell_size,
+                                                 HeightField* talus_factors) {
+  return std::make_unique<RklRelaxer>(settings, cell_size, talus_factors);
 }
 
 }  // namespace sandstroke

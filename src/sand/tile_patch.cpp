@@ -35,6 +35,13 @@ void TilePatch::load_rows(const HeightField& bed, RowSpan span) {
   loaded_ = {std::min(loaded_.begin, wanted.begin), std::max(loaded_.end, wanted.end)};
 }
 
+void TilePatch::load_whole(const HeightField& bed, int slot) {
+  begin(slot);
+  constexpr RowSpan whole{-rim, side + rim};
+  load_rows(bed, whole);
+  load_rim(bed, whole, true, true, [](int) -> const TilePatch* { return nullptr; });
+}
+
 void TilePatch::write_back(HeightField& bed, const CellFlags& cells) const {
   bool changed = false;
   for (int row = loaded_.begin; row < loaded_.end; ++row) {

@@ -51,6 +51,8 @@ class TilePatch : public PatchLayout {
   /// rows that differ from the bed.
   template <class PatchOf>
   void load_rim(const HeightField& bed, RowSpan rows, bool west, bool east, const PatchOf& patch_of);
+  /// Becomes the copy of a tile of the bed with its whole rim.
+  void load_whole(const HeightField& bed, int slot);
   /// Writes the flagged cells' heights to the bed, except in walls.
   void write_back(HeightField& bed, const CellFlags& cells) const;
 

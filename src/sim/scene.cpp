@@ -130,9 +130,10 @@ void describe_relaxation(KeyVisitor& v, RelaxationSettings& r) {
   choose(v, "law", r.law, {std::begin(relaxation_law_names), std::end(relaxation_law_names)},
          "8 neighbours as published; the same talus slope in every direction; or that slope between each two "
          "cells");
-  choose(v, "method", r.method, {"passes", "rkl", "plain"},
-         "passes; super time steps, which are far fewer; or the rule cell by cell, which is slow");
-  if (r.method == RelaxationMethod::rkl)
+  choose(v, "method", r.method, {std::begin(relaxation_method_names), std::end(relaxation_method_names)},
+         "passes; super time steps, which are far fewer; the rule cell by cell, which is slow; or super time "
+         "steps helped by coarser beds, for large piles");
+  if (takes_super_steps(r.method))
     v.number("step_tolerance", r.step_tolerance, {1e-6, 10.0, false}, "",
              "error of a super step, as a fraction of the distance that sand has moved");
   v.number("talus_angle", r.talus_angle, sharp_angle, "deg", "angle of repose");
@@ -383,6 +384,13 @@ void check_scene(const Scene& scene, const std::string& name) {
     throw_input_error(
         "{}: relaxation.share = {} is stable only with relaxation.law = paper; take 0.25 or less", name,
         r.share);
+  if (scene.plugin_laws.relaxation.empty() && r.method == RelaxationMethod::multilevel &&
+      r.law == RelaxationLaw::paper)
+    throw_input_error(
+        "{}: relaxation.method = \"multilevel\" does not know relaxation.law = \"paper\"; take \"isotropic\" "
+        "or "
+        "\"faces\", or relaxation.method = \"rkl\"",
+        name);
   check_device(scene, name);
   if (scene.stroke && scene.stroke->file.empty())
     throw_input_error(

@@ -91,6 +91,8 @@ const std::vector<Case> cases = {
           {"0.1 cells wide", "needs 2 cells", "tool.radius"}),
     scene("UnstableShare", bed + "[relaxation]\nlaw = \"isotropic\"\nshare = 0.5\n",
           {"relaxation.share", "0.25"}),
+    scene("LevelsOfThePublishedLaw", bed + "[relaxation]\nmethod = \"multilevel\"\n",
+          {"relaxation.method", "isotropic", "rkl"}),
     scene("StrokeWithoutFile", bed + "[stroke]\nscale = 2.0\n", {"stroke.file"}),
     scene("SurfaceWithoutFile", bed + "surface = { kind = \"file\" }\n", {"bed.surface.file"}),
     scene("KeyOfAnotherSurface", bed + "surface = { kind = \"flat\", radius = 1.0 }\n",

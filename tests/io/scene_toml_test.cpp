@@ -100,6 +100,7 @@ TEST(SceneToml, EveryKeyOfTheTableIsReadWithItsDefaultJustWhereItSaysThatItAppli
         if (row.name.starts_with("stroke.")) settings.push_back("stroke.file=x.h5");
         if (!with.empty()) settings.push_back(with);
         if (with == "bed.surface.kind=file") settings.push_back("bed.surface.file=x.h5");
+        if (with == "relaxation.method=multilevel") settings.push_back("relaxation.law=faces");
         if (with.starts_with("tool.shape=")) settings.push_back("displacement.deposit=outward");
         if (with == "tool.shape=mesh" && row.name != "tool.file") settings.push_back("tool.file=x.stl");
         try {
