@@ -16,6 +16,9 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// Runs since the process began, but for the loading of its libraries.
+inline const Stopwatch process_watch;
+
 /// Processor time of this process so far, all its threads together [s]. Other processes do not count.
 inline double processor_seconds() {
   timespec time{};

@@ -47,12 +47,15 @@ std::vector<std::string> run_words(const std::string& scene, const TemporaryFold
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
+/// The summary of a run, and in `whole` the simulated time over that of the whole process.
 nlohmann::json summary(const std::string& program, const std::string& scene, std::vector<std::string> more,
                        int threads = 1) {
   const TemporaryFolder folder;
   more.insert(more.end(), {"--json", "--threads", std::to_string(threads)});
-  return nlohmann::json::parse(
-      run(program, run_words(scene, folder, std::move(more)))["out"].get<std::string>());
+  const nlohmann::json ran = run(program, run_words(scene, folder, std::move(more)));
+  nlohmann::json summary = nlohmann::json::parse(ran["out"].get<std::string>());
+  summary["whole"] = summary["simulated_seconds"].get<double>() / ran["wall"].get<double>();
+  return summary;
 }
 
 const std::string strokes = std::string(SANDSTROKE_SOURCE) + "/strokes/";
@@ -93,22 +96,29 @@ std::vector<Line> lines(bool quick) {
   const auto add = [&](std::string name, std::string unit, Better better, auto measure, int repeats = 7) {
     all.push_back({std::move(name), std::move(unit), better, quick ? 1 : repeats, measure});
   };
-  for (const char* preset : {"paper", "accurate"})
-    add("stroke of 29 s (strokes/wscg), `" + std::string(preset) + "`", "times real time", Better::more,
-        [preset](const std::string& program) -> double {
-          return summary(program, wscg_scene,
-                         {"--set", std::string("model.preset=") + preset})["real_time_factor"];
-        });
+  const auto add_stroke = [&](const std::string& name, const std::vector<std::string>& words,
+                              int repeats = 7) {
+    const auto add_factor = [&](const char* suffix, const char* factor) {
+      add(
+          name + suffix, "times real time", Better::more,
+          [words, factor](const std::string& program) -> double {
+            return summary(program, wscg_scene, words)[factor];
+          },
+          repeats);
+    };
+    add_factor("", "real_time_factor");
+    add_factor(", whole process", "whole");
+  };
+  add_stroke("stroke of 29 s (strokes/wscg), `paper`", {});
+  add_stroke("stroke of 29 s (strokes/wscg), `accurate`", {"--set", "model.preset=accurate"});
+  if (!quick)
+    add_stroke("the same on 4000²", {"--set", "model.preset=accurate", "--set", "bed.cells=[4000, 4000]"}, 2);
   const std::string robot =
       std::string(SANDSTROKE_SHARED_DATA) + "/panda_comanip_force_1khz/symbol17_rec2.csv";
   if (std::filesystem::exists(robot))
-    add("a robot's drawing of 9 s, as recorded, `accurate`", "times real time", Better::more,
-        [robot](const std::string& program) -> double {
-          return summary(program, wscg_scene,
-                         {"--stroke", robot, "--set", "stroke.table.rate=1000", "--set", "stroke.plane=fit",
-                          "--set", "stroke.place=centre", "--set", "stroke.depth=0.004", "--set",
-                          "model.preset=accurate"})["real_time_factor"];
-        });
+    add_stroke("a robot's drawing of 9 s, as recorded, `accurate`",
+               {"--stroke", robot, "--set", "stroke.table.rate=1000", "--set", "stroke.plane=fit", "--set",
+                "stroke.place=centre", "--set", "stroke.depth=0.004", "--set", "model.preset=accurate"});
   // The passes of a pile are known from when it was timed.
   const auto passes = std::make_shared<std::map<std::pair<std::string, int>, double>>();
   for (const int n : quick ? std::vector{128, 256} : std::vector{512, 1024, 2048, 4096}) {
@@ -146,6 +156,14 @@ std::vector<Line> lines(bool quick) {
   add(
       "`--version`", "MB", Better::less,
       [](const std::string& program) { return 1e-6 * run(program, {"--version"})["peak"].get<double>(); }, 3);
+  add(
+      "`info` of a run", "ms", Better::less,
+      [](const std::string& program) {
+        const TemporaryFolder folder;
+        run(program, run_words(wscg_scene, folder));
+        return 1e3 * run(program, {"info", (folder / "run.h5").string()})["wall"].get<double>();
+      },
+      7);
   add(
       "a run of an empty bed", "MB", Better::less,
       [](const std::string& program) {

@@ -219,6 +219,9 @@ TEST(CliRun, JsonSaysWhatTheRunFileHolds) {
   EXPECT_NEAR(json["simulated_seconds"], trace.back().time + 1e-3, 1e-9);
   EXPECT_NEAR(json["real_time_factor"].get<double>() * json["wall_seconds"].get<double>(),
               json["simulated_seconds"].get<double>(), 1e-9);
+  EXPECT_NEAR(json["process_real_time_factor"].get<double>() * json["process_seconds"].get<double>(),
+              json["simulated_seconds"].get<double>(), 1e-9);
+  EXPECT_GT(json["process_seconds"], json["wall_seconds"]);
   EXPECT_EQ(json["contact_ticks"], contact);
   EXPECT_EQ(json["saturated_ticks"], saturated);
   EXPECT_EQ(json["gaps"], 0);
