@@ -7,13 +7,13 @@
 
 namespace sandstroke {
 
-ActiveSand::ActiveSand(const TalusLaw& law, double cell_size, Givers givers, HeightField* talus_factors,
+ActiveSand::ActiveSand(const TalusLaw& law, double cell_size, Givers givers, const SandStart& start,
                        std::int64_t worth_threads)
     : law_(law),
       worth_threads_(worth_threads),
       stable_slope_(stable_slope(law, cell_size)),
-      talus_factors_(talus_factors),
-      activity_(givers) {}
+      talus_factors_(start.talus_factors),
+      activity_(givers, start.wake) {}
 
 void ActiveSand::begin(HeightField& bed) {
   cells_visited_ = 0;
@@ -51,10 +51,10 @@ void ActiveSand::load_slope_weights(int tile, std::unique_ptr<TilePatch>& weight
 
 void ActiveSand::look_at_active_cells() {
   tiles_active_max_ = std::max(tiles_active_max_, static_cast<int>(tiles().size()));
-  std::int64_t cells_looked_at = 0;
-  for (const int slot : tiles()) cells_looked_at += count(cells(slot), activity_.rows(slot));
-  cells_visited_ += cells_looked_at;
-  work_ = cells_looked_at + work_per_tile * static_cast<std::int64_t>(tiles().size());
+  active_cells_ = 0;
+  for (const int slot : tiles()) active_cells_ += count(cells(slot), activity_.rows(slot));
+  cells_visited_ += active_cells_;
+  work_ = active_cells_ + work_per_tile * static_cast<std::int64_t>(tiles().size());
 }
 
 void ActiveSand::load_rim(const HeightField& bed, TilePatch& patch, RowSpan rows,

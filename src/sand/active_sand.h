@@ -19,6 +19,14 @@ struct RelaxedTile {
   std::unique_ptr<TilePatch> slope_weights;  ///< 1 / talus factor^2, if the sand has such factors
 };
 
+/// How a bed is taken over.
+struct SandStart {
+  FirstWake wake = FirstWake::all;
+  /// The talus slope of each cell over the law's (isotropic only), or null. Its tiles are allocated as they
+  /// are needed.
+  HeightField* talus_factors = nullptr;
+};
+
 /// The sand of a bed that can move, and its flow by one law. The steppers (passes, rkl) are built on it. A
 /// pass calls compute_flow, then advance. Each sweeps the active tiles once, on several threads where that
 /// pays; the bits are the same for any number of threads.
@@ -28,17 +36,17 @@ class ActiveSand {
   // tile with any active cell costs as much as 400 more cells (measured: tests/bench/active_sand_bench.cpp).
   static constexpr std::int64_t work_worth_threads = 8'000, work_per_tile = 400;
 
-  /// givers: near_changes for super-steps. talus_factors: the talus slope of each cell over the law's
-  /// (isotropic only), or null; its tiles are allocated as they are needed.
-  ActiveSand(const TalusLaw& law, double cell_size, Givers givers = Givers::all,
-             HeightField* talus_factors = nullptr, std::int64_t worth_threads = work_worth_threads);
+  /// givers: near_changes for super-steps.
+  explicit ActiveSand(const TalusLaw& law, double cell_size, Givers givers = Givers::all,
+                      const SandStart& start = {}, std::int64_t worth_threads = work_worth_threads);
 
   /// Begins a relaxation: activates the sand around the cells that were set since the last one.
   void begin(HeightField& bed);
   bool at_rest() const { return activity_.tiles().empty(); }
   const std::vector<int>& tiles() const { return activity_.tiles(); }  ///< slots of the active tiles
   const CellFlags& cells(int slot) const { return activity_.cells(slot); }
-  void rest() { activity_.rest(); }  ///< nothing is active any more
+  std::int64_t active_cells() const { return active_cells_; }  ///< in the last compute_flow()
+  void rest() { activity_.rest(); }                            ///< nothing is active any more
   /// Each tile gets a number when it joins a relaxation, so that a stepper can keep data for it.
   std::size_t number_of(int slot) const { return static_cast<std::size_t>(numbers_[slot]); }
   std::size_t joined() const { return joined_; }  ///< how many have
@@ -113,7 +121,7 @@ class ActiveSand {
   std::vector<Residuals> group_residuals_;
   std::vector<double> residuals_;
 
-  std::int64_t work_ = 0, cells_visited_ = 0, wake_ups_before_ = 0;
+  std::int64_t active_cells_ = 0, work_ = 0, cells_visited_ = 0, wake_ups_before_ = 0;
   int tiles_active_max_ = 0;
 };
 
@@ -159,14 +167,19 @@ struct SuperStepProgress {
 /// rkl.
 class SuperStepper : public Relaxer {
  public:
-  /// Goes on with a relaxation for at most so many passes. What still moves then stays awake for the next
-  /// part. after_pass counts from this part's beginning.
-  virtual RelaxationOutcome relax_part(HeightField& bed, SuperStepProgress& progress, std::int64_t passes,
+  /// When a part ends: after so many passes, once so many cells are awake; at the latest after most_passes.
+  struct Part {
+    std::int64_t passes, awake_cells, most_passes;
+  };
+  /// Goes on with a relaxation. What still moves at the part's end stays awake for the next one. after_pass
+  /// counts from this part's beginning.
+  virtual RelaxationOutcome relax_part(HeightField& bed, SuperStepProgress& progress, const Part& part,
                                        const PassWatcher& after_pass) = 0;
+  /// Slots of the tiles whose sand is awake.
+  virtual const std::vector<int>& awake_tiles() const = 0;
 };
-/// talus_factors: as for ActiveSand.
 std::unique_ptr<SuperStepper> make_super_stepper(const RelaxationSettings& settings, double cell_size,
-                                                 HeightField* talus_factors = nullptr);
+                                                 const SandStart& start = {});
 /// Heap memory [bytes] of the rkl relaxer besides ActiveSand, for each tile that takes part.
 std::size_t rkl_bytes_per_tile();
 

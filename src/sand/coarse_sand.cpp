@@ -98,19 +98,30 @@ RelaxationSettings on_coarse_bed(const RelaxationSettings& settings) {
 }
 
 CoarseSand::CoarseSand(const HeightField& fine, const RelaxationSettings& settings,
-                       const HeightField* fine_factors, bool first)
+                       const std::vector<int>& awake, const HeightField* fine_factors, bool first)
     : bed_(fine.rows() / 2, fine.cols() / 2, 2.0 * fine.cell_size(), std::make_shared<MeansRule>(fine)),
       talus_factors_(bed_.rows(), bed_.cols(), bed_.cell_size(),
                      std::make_shared<LevelRule>(first ? first_factor : 1.0)),
       start_(bed_) {
-  for (int slot = 0; slot < fine.allocated_tiles(); ++slot) {
-    const int row = fine.tile_of(slot) / fine.tile_cols() / 2,
-              col = fine.tile_of(slot) % fine.tile_cols() / 2;
-    if (row < bed_.tile_rows() && col < bed_.tile_cols()) bed_.allocate(bed_.tile_index(row, col));
-  }
+  take_tiles(fine, awake);
   mark_walls(fine);
   start_ = bed_;
   allow_slopes(fine, settings, fine_factors, first);
+}
+
+void CoarseSand::take_tiles(const HeightField& fine, const std::vector<int>& awake) {
+  for (const int fine_slot : awake) {
+    const int fine_tile = fine.tile_of(fine_slot);
+    const int row = fine_tile / fine.tile_cols() / 2, col = fine_tile % fine.tile_cols() / 2;
+    if (row >= bed_.tile_rows() || col >= bed_.tile_cols()) continue;
+    const int tile = bed_.tile_index(row, col);
+    const int slot = bed_.allocate(tile);
+    for (int r = 0; r < row_length; ++r) bed_.mark_disturbed(slot, r, ~std::uint64_t{0});
+    // Sand may flow on to the tiles beside: there, too, it must know how steep it may be.
+    for (int row_step = -1; row_step <= 1; ++row_step)
+      for (int col_step = -1; col_step <= 1; ++col_step)
+        if (const int beside = bed_.tile_beside(tile, row_step, col_step); beside >= 0) bed_.allocate(beside);
+  }
 }
 
 void CoarseSand::mark_walls(const HeightField& fine) {

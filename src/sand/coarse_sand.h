@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "sand/height_field.h"
 #include "sand/relaxation.h"
 
@@ -16,12 +18,14 @@ RelaxationSettings on_coarse_bed(const RelaxationSettings& settings);
 /// Odd last rows and columns, and cells with a wall in them, take no part.
 class CoarseSand {
  public:
-  /// settings: of the fine bed. fine_factors: talus slopes of its cells over the settings', or null. first:
-  /// nothing was brought back yet. The sand is then far from rest, where slopes of two grids tell nothing.
-  /// All may be steeper by a tenth instead, so that the coarse bed does not overshoot.
-  CoarseSand(const HeightField& fine, const RelaxationSettings& settings, const HeightField* fine_factors,
-             bool first);
+  /// settings: of the fine bed. awake: slots of its tiles whose sand moves; all other sand rests.
+  /// fine_factors: talus slopes of its cells over the settings', or null. first: nothing was brought back
+  /// yet. The sand is then far from rest, where slopes of two grids tell nothing. All may be steeper by a
+  /// tenth instead, so that the coarse bed does not overshoot.
+  CoarseSand(const HeightField& fine, const RelaxationSettings& settings, const std::vector<int>& awake,
+             const HeightField* fine_factors, bool first);
 
+  /// Its disturbed cells are those that may move at first.
   HeightField& bed() { return bed_; }
   /// The talus slope of each coarse cell over the law's.
   HeightField& talus_factors() { return talus_factors_; }
@@ -34,6 +38,7 @@ class CoarseSand {
   void bring_back(HeightField& fine) const;
 
  private:
+  void take_tiles(const HeightField& fine, const std::vector<int>& awake);
   void mark_walls(const HeightField& fine);
   void allow_slopes(const HeightField& fine, const RelaxationSettings& settings,
                     const HeightField* fine_factors, bool first);

@@ -10,10 +10,16 @@ namespace {
 // Sand that moves far on a coarse bed does not take the ways that it takes on the fine one, and it never
 // comes back. So the fine bed goes first. With 64 first passes hills come to rest with 3.7 % of the moved
 // sand elsewhere, with 128 2.2 %, with 256 1.4 to 1.9 % (512^2; `rkl` 0.1 %; piles 0.1 %). Few passes on the
-// coarse beds at a time would bring it below 0.3 %, and cost more than `rkl` does. A relaxation that rests
-// within the first passes has the bits of `rkl`.
+// coarse beds at a time would bring it below 0.3 %, and cost more than `rkl` does.
 constexpr std::int64_t first_passes = 256, first_coarse_passes = 128, passes_between = 32;
-constexpr int most_corrections = 20;
+/// More gain nothing, and in a channel along a wall they cost.
+constexpr int most_corrections = 4;
+/// Passes on a coarse bed at a time. Sand that rests later there, as in a channel along a wall, is brought
+/// back as far as it came.
+constexpr std::int64_t most_coarse_passes = 1024;
+/// Fewer awake cells than these are not helped: those of a stroke on 4000^2 took twice as long with
+/// corrections.
+constexpr std::int64_t least_awake = 10'000;
 /// Cells across a bed from which on it has a coarse one.
 constexpr int least_cells = 128;
 /// Part of the largest share after a correction.
@@ -21,10 +27,10 @@ constexpr double share_after = 0.25;
 
 class MultilevelRelaxer : public Relaxer {
  public:
-  MultilevelRelaxer(const RelaxationSettings& settings, double cell_size, HeightField* talus_factors)
+  MultilevelRelaxer(const RelaxationSettings& settings, double cell_size, const SandStart& start)
       : settings_(settings),
-        talus_factors_(talus_factors),
-        stepper_(make_super_stepper(settings, cell_size, talus_factors)) {}
+        talus_factors_(start.talus_factors),
+        stepper_(make_super_stepper(settings, cell_size, start)) {}
 
   RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
     return relax(bed, 0.0, after_pass);
@@ -40,7 +46,7 @@ class MultilevelRelaxer : public Relaxer {
       const PassWatcher watcher = [&](std::int64_t more, const BedNow& bed_now) {
         after_pass(before + more, bed_now);
       };
-      outcome.add(stepper_->relax_part(bed, progress, std::min(passes, settings_.max_passes - before),
+      outcome.add(stepper_->relax_part(bed, progress, {passes, least_awake, settings_.max_passes - before},
                                        after_pass ? watcher : PassWatcher{}));
     };
     const bool has_coarse = std::min(bed.rows(), bed.cols()) >= least_cells;
@@ -56,11 +62,14 @@ class MultilevelRelaxer : public Relaxer {
     return outcome;
   }
 
-  /// Relaxes the coarse bed and brings back what changed. Returns false if nothing is too steep there.
+  /// Relaxes the coarse bed and brings back what changed. Returns false where that would not help.
   bool correct(HeightField& bed, bool first, double travelled, RelaxationOutcome& outcome) const {
-    CoarseSand coarse(bed, settings_, talus_factors_, first);
+    CoarseSand coarse(bed, settings_, stepper_->awake_tiles(), talus_factors_, first);
     if (!coarse.flows()) return false;
-    MultilevelRelaxer relaxer(on_coarse_bed(settings_), coarse.bed().cell_size(), &coarse.talus_factors());
+    RelaxationSettings settings = on_coarse_bed(settings_);
+    settings.max_passes = most_coarse_passes;
+    MultilevelRelaxer relaxer(settings, coarse.bed().cell_size(),
+                              {FirstWake::disturbed, &coarse.talus_factors()});
     const RelaxationOutcome there = relaxer.relax(coarse.bed(), travelled, {});
     outcome.cells_visited += there.cells_visited;
     outcome.moved_volume += 2.0 * there.moved_volume;  // through a coarse cell: two fine ones
@@ -76,7 +85,7 @@ class MultilevelRelaxer : public Relaxer {
 }  // namespace
 
 std::unique_ptr<Relaxer> make_multilevel_relaxer(const RelaxationSettings& settings, double cell_size) {
-  return std::make_unique<MultilevelRelaxer>(settings, cell_size, nullptr);
+  return std::make_unique<MultilevelRelaxer>(settings, cell_size, SandStart{});
 }
 
 }  // namespace sandstroke

@@ -50,21 +50,21 @@ constexpr std::int64_t work_worth_ahead = 20'000;
 
 class RklRelaxer : public SuperStepper {
  public:
-  RklRelaxer(const RelaxationSettings& settings, double cell_size, HeightField* talus_factors)
+  RklRelaxer(const RelaxationSettings& settings, double cell_size, const SandStart& start)
       : law_(talus_law(settings, cell_size)),
         step_tolerance_(settings.step_tolerance),
-        most_passes_(settings.max_passes),
+        max_passes_(settings.max_passes),
         largest_share_(std::min(law_.share, largest_share)),
-        sand_(ungated(settings, cell_size), cell_size, Givers::near_changes, talus_factors) {}
+        sand_(ungated(settings, cell_size), cell_size, Givers::near_changes, start) {}
 
   RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
     SuperStepProgress progress;
-    return relax_part(bed, progress, most_passes_, after_pass);
+    return relax_part(bed, progress, {max_passes_, 0, max_passes_}, after_pass);
   }
 
-  RelaxationOutcome relax_part(HeightField& bed, SuperStepProgress& progress, std::int64_t passes,
+  RelaxationOutcome relax_part(HeightField& bed, SuperStepProgress& progress, const Part& part,
                                const PassWatcher& after_pass) override {
-    max_passes_ = passes;
+    part_ = part;
     outcome_ = {};
     moved_ = {};
     low_ = std::numeric_limits<double>::infinity();
@@ -94,6 +94,8 @@ class RklRelaxer : public SuperStepper {
     return outcome_;
   }
 
+  const std::vector<int>& awake_tiles() const override { return sand_.tiles(); }
+
   struct StepTile {
     SuperStepTile kept;
     FlowSize first{};        // size of F0, if the tile is active at the step's start
@@ -104,7 +106,9 @@ class RklRelaxer : public SuperStepper {
 
  private:
   bool goes_on() const {
-    return !sand_.at_rest() && too_steep_ && outcome_.passes < max_passes_ && !interrupted();
+    const bool ends = outcome_.passes >= part_.most_passes ||
+                      (outcome_.passes >= part_.passes && sand_.active_cells() >= part_.awake_cells);
+    return !sand_.at_rest() && too_steep_ && !ends && !interrupted();
   }
   StepTile& tile(int slot) { return *tiles_[sand_.number_of(slot)]; }
 
@@ -260,7 +264,7 @@ class RklRelaxer : public SuperStepper {
 
   TalusLaw law_;  // decides what rests
   double step_tolerance_;
-  std::int64_t most_passes_;  // of a relaxation
+  std::int64_t max_passes_;
   double largest_share_;
   ActiveSand sand_;
 
@@ -268,7 +272,7 @@ class RklRelaxer : public SuperStepper {
   std::int64_t step_ = 0;                         // which super-step this is
 
   // State of this relaxation, or of this part of it.
-  std::int64_t max_passes_ = 0;
+  Part part_{};
   RelaxationOutcome outcome_;
   std::size_t taken_in_ = 0;  // how many tiles have taken part
   CompensatedSum moved_;
@@ -283,8 +287,8 @@ class RklRelaxer : public SuperStepper {
 std::size_t rkl_bytes_per_tile() { return sizeof(RklRelaxer::StepTile) + sizeof(PatchHeights); }
 
 std::unique_ptr<SuperStepper> make_super_stepper(const RelaxationSettings& settings, double cell_size,
-                                                 HeightField* talus_factors) {
-  return std::make_unique<RklRelaxer>(settings, cell_size, talus_factors);
+                                                 const SandStart& start) {
+  return std::make_unique<RklRelaxer>(settings, cell_size, start);
 }
 
 }  // namespace sandstroke

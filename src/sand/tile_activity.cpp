@@ -13,8 +13,8 @@ constexpr int reach = 2;  // cells
 }  // namespace
 
 void TileActivity::wake_disturbed(HeightField& bed, double stable_slope) {
-  if (first_time_) {
-    first_time_ = false;
+  if (wakes_all_) {
+    wakes_all_ = false;
     CellFlags all;
     all.fill(~std::uint64_t{0});
     const int existing = bed.allocated_tiles();

@@ -11,6 +11,9 @@ namespace sandstroke {
 /// The active cells that may give sand: all, or only those within one of a change. The latter are tracked,
 /// too.
 enum class Givers { all, near_changes };
+/// The sand that the first relaxation of a bed wakes: all of it, where tiles are allocated or the rule is
+/// steep; or only what was disturbed, since all other sand rests.
+enum class FirstWake { all, disturbed };
 
 /// Tracks which cells of a bed may change in the next pass. What a cell does in a pass depends on cells up to
 /// two away (its neighbours' flows depend on their neighbours). So it can change only if one of those changed
@@ -18,11 +21,12 @@ enum class Givers { all, near_changes };
 /// not depend on tiles at all.
 class TileActivity {
  public:
-  explicit TileActivity(Givers givers) : tells_givers_(givers == Givers::near_changes) {}
+  explicit TileActivity(Givers givers, FirstWake first = FirstWake::all)
+      : tells_givers_(givers == Givers::near_changes), wakes_all_(first == FirstWake::all) {}
 
-  /// Wakes the cells around the disturbed ones, and clears these (HeightField::clear_disturbed). The first
-  /// call wakes every allocated tile. It also allocates and wakes the tiles whose rule allows a slope above
-  /// stable_slope (rise over run).
+  /// Wakes the cells around the disturbed ones, and clears these (HeightField::clear_disturbed). With
+  /// FirstWake::all the first call wakes every allocated tile. It also allocates and wakes the tiles whose
+  /// rule allows a slope above stable_slope (rise over run).
   void wake_disturbed(HeightField& bed, double stable_slope);
 
   /// Slots of the tiles with active cells. All tiles that an active cell can see are allocated.
@@ -92,7 +96,7 @@ class TileActivity {
   std::vector<int> tiles_;
   std::vector<int> tiles_before_;  // during advance(): tiles_ of the pass before
   std::int64_t wake_ups_ = 0;
-  bool first_time_ = true;
+  bool wakes_all_;  // at the next wake_disturbed()
 };
 
 }  // namespace sandstroke

@@ -74,12 +74,30 @@ TEST_P(MultilevelLaws, HaveTheBitsOfRklWhereItRestsSoon) {
   EXPECT_TRUE((bed.grid() == by_rkl.grid()).all());
 }
 
+/// Sand in a channel four cells wide takes long, but there is too little of it to be worth a coarse bed.
+TEST_P(MultilevelLaws, HaveTheBitsOfRklWhereLittleSandMoves) {
+  HeightField bed(256, 512, 1.0);
+  std::vector<RowCells> walls;
+  for (int tile_col = 0; tile_col < bed.tile_cols(); ++tile_col)
+    for (const int row : {99, 104})
+      walls.push_back({bed.allocate(bed.tile_index(row / 64, tile_col)), row % 64, ~std::uint64_t{0}});
+  bed.set_tool_walls(walls);
+  for (int row = 100; row < 104; ++row)
+    for (int col = 0; col < 30; ++col) bed.set(row, col, 90.0);
+  HeightField by_rkl = bed;
+  const RelaxationOutcome outcome =
+      make_relaxer(settings_of(RelaxationMethod::multilevel, GetParam()), 1.0)->relax(bed);
+  EXPECT_GT(outcome.passes, 300);
+  make_relaxer(settings_of(RelaxationMethod::rkl, GetParam()), 1.0)->relax(by_rkl);
+  EXPECT_TRUE((bed.grid() == by_rkl.grid()).all());
+}
+
 /// Odd numbers of cells, a round wall, and held cells in the pile's way.
 TEST_P(MultilevelLaws, LoseNothingAtWallsAndOddEdges) {
   HeightField bed = cylinder(515, 577, BedShape::round);
   std::vector<RowCells> held;
-  for (int row = 200; row < 240; ++row)
-    held.push_back({bed.allocate(bed.tile_index(row / 64, 340 / 64)), row % 64, 0x1ff0});
+  for (int row = 216; row < 240; ++row)
+    held.push_back({bed.allocate(bed.tile_index(row / 64, 340 / 64)), row % 64, 0xff00});
   bed.set_tool_walls(held);
   const HeightField start = bed;
   const RelaxationOutcome outcome =
@@ -152,7 +170,7 @@ TEST(Multilevel, BringsBackWhatChangedAndNothingElse) {
   for (int row = 100; row < 160; ++row)
     for (int col = 100; col < 160; ++col) fine.set(row, col, 0.01 * row);
   const HeightGrid before = fine.grid();
-  CoarseSand coarse(fine, settings_of(RelaxationMethod::multilevel), nullptr, true);
+  CoarseSand coarse(fine, settings_of(RelaxationMethod::multilevel), {0, 1, 2, 3}, nullptr, true);
   EXPECT_EQ(coarse.bed()(60, 60), 0.25 * (before.block(120, 120, 2, 2).sum()));
   coarse.bed().set(60, 60, coarse.bed()(60, 60) + 1.0);
   coarse.bed().set(60, 61, coarse.bed()(60, 61) + 0.5);
@@ -165,6 +183,15 @@ TEST(Multilevel, BringsBackWhatChangedAndNothingElse) {
   EXPECT_NEAR(gain(121, 122), 0.5 + 3.0 / 16.0 * 0.5, 1e-14);
   EXPECT_NEAR(gain(140, 141), -2.0, 1e-14);
   EXPECT_EQ((gain != 0.0).count(), 12);
+}
+
+TEST(Multilevel, TakesNoTilesFarFromSandThatMoves) {
+  const HeightField fine(HeightGrid::Zero(1024, 1024), 1.0);  // all tiles are allocated
+  CoarseSand coarse(fine, settings_of(RelaxationMethod::multilevel), {fine.slot_of(fine.tile_index(8, 8))},
+                    nullptr, false);
+  EXPECT_EQ(coarse.bed().allocated_tiles(), 9);
+  EXPECT_EQ(coarse.bed().disturbed_tiles().size(), 1u);
+  EXPECT_FALSE(coarse.flows());
 }
 
 }  // namespace
