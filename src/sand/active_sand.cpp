@@ -1,33 +1,71 @@
 #include "sand/active_sand.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "sand/slope_kernels.h"
 #include "sand/steep_tiles.h"
 
 namespace sandstroke {
 
-ActiveSand::ActiveSand(const TalusLaw& law, double cell_size, Givers givers, const SandStart& start,
-                       std::int64_t worth_threads)
+ActiveSand::ActiveSand(const TalusLaw& law, double tolerance, double cell_size, Givers givers,
+                       const SandStart& start, std::int64_t worth_threads)
     : law_(law),
+      tolerance_(tolerance),
       worth_threads_(worth_threads),
       stable_slope_(stable_slope(law, cell_size)),
       talus_factors_(start.talus_factors),
-      activity_(givers, start.wake) {}
+      looks_at_all_(start.wake == FirstWake::too_steep),
+      activity_(givers) {}
 
 void ActiveSand::begin(HeightField& bed) {
   cells_visited_ = 0;
   tiles_active_max_ = 0;
   wake_ups_before_ = activity_.wake_ups();
-  activity_.wake_disturbed(bed, stable_slope_);
+  if (std::exchange(looks_at_all_, false)) wake_too_steep(bed);
+  activity_.wake_disturbed(bed);
+}
+
+void ActiveSand::know_slots(int count) {
+  if (numbers_.size() >= static_cast<std::size_t>(count)) return;
+  numbers_.resize(count, -1);
+  group_residuals_.resize(count);
+  residuals_.resize(count);
+}
+
+void ActiveSand::wake_too_steep(HeightField& bed) {
+  visit_steep_tiles(bed, stable_slope_, [&](int tile) { bed.allocate(tile); });
+  const int existing = bed.allocated_tiles();
+  for (int slot = 0; slot < existing; ++slot) bed.allocate_around(bed.tile_of(slot));
+  const int tiles = bed.allocated_tiles();
+  know_slots(tiles);
+  parallel_for(tiles, work_per_tile * tiles >= worth_threads_, [&](std::size_t at) {
+    const int slot = static_cast<int>(at);
+    thread_local TilePatch patch;
+    patch.load_whole(bed, slot);
+    const CellRange inside = bed.tile_cells(bed.tile_of(slot));
+    CellFlags cells{};
+    std::fill_n(cells.begin(), inside.rows(), columns_between(0, inside.cols()));
+    compute_residuals(law_, patch, cells, group_residuals_[slot].data());
+    residuals_[slot] =
+        std::max(0.0, *std::max_element(group_residuals_[slot].begin(), group_residuals_[slot].end()));
+  });
+  // A little less, since laws do not compare slopes as fractions.
+  const double limit = tolerance_ - 1e-12;
+  constexpr int groups = HeightField::tile_side / cells_per_group;
+  for (int slot = 0; slot < tiles; ++slot) {
+    if (!(residuals_[slot] > limit)) continue;
+    CellFlags steep{};
+    for (int row = 0; row < HeightField::tile_side; ++row)
+      for (int group = 0; group < groups; ++group)
+        if (group_residuals_[slot][row * groups + group] > limit)
+          steep[row] |= columns_between(group * cells_per_group, (group + 1) * cells_per_group);
+    activity_.wake_around(bed, slot, {steep, all_rows});
+  }
 }
 
 void ActiveSand::take_part(const HeightField& bed, int slot) {
-  if (numbers_.size() <= static_cast<std::size_t>(slot)) {
-    numbers_.resize(slot + 1, -1);
-    group_residuals_.resize(slot + 1);
-    residuals_.resize(slot + 1);
-  }
+  know_slots(slot + 1);
   if (numbers_[slot] >= 0) return;
   numbers_[slot] = static_cast<int>(joined_++);
   if (tiles_.size() < joined_) tiles_.push_back(std::make_unique<RelaxedTile>());
@@ -36,10 +74,7 @@ void ActiveSand::take_part(const HeightField& bed, int slot) {
 }
 
 void ActiveSand::load_slope_weights(int tile, std::unique_ptr<TilePatch>& weights) {
-  for (int row_step = -1; row_step <= 1; ++row_step)
-    for (int col_step = -1; col_step <= 1; ++col_step)
-      if (const int beside = talus_factors_->tile_beside(tile, row_step, col_step); beside >= 0)
-        talus_factors_->allocate(beside);
+  talus_factors_->allocate_around(tile);
   if (!weights) weights = std::make_unique<TilePatch>();
   weights->load_whole(*talus_factors_, talus_factors_->slot_of(tile));
   for (int row = -TilePatch::rim; row < TilePatch::side + TilePatch::rim; ++row)

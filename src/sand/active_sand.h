@@ -19,9 +19,13 @@ struct RelaxedTile {
   std::unique_ptr<TilePatch> slope_weights;  ///< 1 / talus factor^2, if the sand has such factors
 };
 
+/// The sand that the first relaxation of a bed wakes: what is too steep and what was disturbed; or only the
+/// latter, where all other sand is known to rest.
+enum class FirstWake { too_steep, disturbed };
+
 /// How a bed is taken over.
 struct SandStart {
-  FirstWake wake = FirstWake::all;
+  FirstWake wake = FirstWake::too_steep;
   /// The talus slope of each cell over the law's (isotropic only), or null. Its tiles are allocated as they
   /// are needed.
   HeightField* talus_factors = nullptr;
@@ -36,11 +40,14 @@ class ActiveSand {
   // tile with any active cell costs as much as 400 more cells (measured: tests/bench/active_sand_bench.cpp).
   static constexpr std::int64_t work_worth_threads = 8'000, work_per_tile = 400;
 
-  /// givers: near_changes for super-steps.
-  explicit ActiveSand(const TalusLaw& law, double cell_size, Givers givers = Givers::all,
-                      const SandStart& start = {}, std::int64_t worth_threads = work_worth_threads);
+  /// tolerance: sand rests whose slope exceeds tan(talus) by at most this fraction. givers: near_changes for
+  /// super-steps.
+  ActiveSand(const TalusLaw& law, double tolerance, double cell_size, Givers givers = Givers::all,
+             const SandStart& start = {}, std::int64_t worth_threads = work_worth_threads);
 
-  /// Begins a relaxation: activates the sand around the cells that were set since the last one.
+  /// Begins a relaxation: activates the sand around the cells that were set since the last one. The first one
+  /// looks at all allocated tiles and those whose rule is steep, and activates the sand that is too steep,
+  /// too.
   void begin(HeightField& bed);
   bool at_rest() const { return activity_.tiles().empty(); }
   const std::vector<int>& tiles() const { return activity_.tiles(); }  ///< slots of the active tiles
@@ -99,6 +106,8 @@ class ActiveSand {
   void for_active_tiles(const Body& body) const {
     parallel_for(tiles().size(), work_ >= worth_threads_, [&](std::size_t i) { body(tiles()[i]); });
   }
+  void know_slots(int count);
+  void wake_too_steep(HeightField& bed);
   void take_part(const HeightField& bed, int slot);
   void load_slope_weights(int tile, std::unique_ptr<TilePatch>& weights);
   void look_at_active_cells();
@@ -106,9 +115,11 @@ class ActiveSand {
   void load_givers(const HeightField& bed, int slot, RowSpan rows, FlowScratch& scratch) const;
 
   TalusLaw law_;
+  double tolerance_;
   std::int64_t worth_threads_;
   double stable_slope_;  // rise over run
   HeightField* talus_factors_;
+  bool looks_at_all_;  // at the next begin()
   TileActivity activity_;
 
   // Tiles of this relaxation, by number. Those beyond joined_ are left from earlier ones.

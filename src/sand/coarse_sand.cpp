@@ -118,9 +118,7 @@ void CoarseSand::take_tiles(const HeightField& fine, const std::vector<int>& awa
     const int slot = bed_.allocate(tile);
     for (int r = 0; r < row_length; ++r) bed_.mark_disturbed(slot, r, ~std::uint64_t{0});
     // Sand may flow on to the tiles beside: there, too, it must know how steep it may be.
-    for (int row_step = -1; row_step <= 1; ++row_step)
-      for (int col_step = -1; col_step <= 1; ++col_step)
-        if (const int beside = bed_.tile_beside(tile, row_step, col_step); beside >= 0) bed_.allocate(beside);
+    bed_.allocate_around(tile);
   }
 }
 

@@ -79,6 +79,12 @@ int HeightField::make_tile(int tile) {
   return allocated_tiles() - 1;
 }
 
+void HeightField::allocate_around(int tile) {
+  for (int row_step = -1; row_step <= 1; ++row_step)
+    for (int col_step = -1; col_step <= 1; ++col_step)
+      if (const int beside = tile_beside(tile, row_step, col_step); beside >= 0) allocate(beside);
+}
+
 double HeightField::height_at(double x, double y) const {
   const double row = std::round(row_at(y)), col = std::round(col_at(x));
   const bool inside = row >= 0.0 && row < rows() && col >= 0.0 && col < cols();

@@ -78,6 +78,8 @@ class HeightField : public BedGeometry {
     const int slot = slot_of(tile);
     return slot >= 0 ? slot : make_tile(tile);
   }
+  /// Allocates a tile and those beside it.
+  void allocate_around(int tile);
   /// tile_side x tile_side heights, row-major, on a 64-byte boundary; those outside the bed are unused.
   const double* tile_heights(int slot) const { return tiles_[slot]->heights.data(); }
   /// The same, for writing. Then call mark_changed, or mark_disturbed if the next relaxation must look there.

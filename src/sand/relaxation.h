@@ -77,8 +77,8 @@ class Relaxer {
   virtual RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass = {}) = 0;
 };
 
-/// The number of tiles that are allocated, or whose rule is steep enough to move. The first relaxation wakes
-/// them, and allocates those beside them. With `plain`: the number of all tiles.
+/// The number of tiles that are allocated, or whose rule is steep enough to move. The first relaxation looks
+/// at them, and allocates those beside them. With `plain`: the number of all tiles.
 std::int64_t tiles_to_relax(const HeightField& bed, const RelaxationSettings& settings);
 /// Memory that relaxing takes for each of them [bytes], the bed's own included.
 std::size_t bytes_per_relaxed_tile(const RelaxationSettings& settings);

@@ -55,7 +55,7 @@ class RklRelaxer : public SuperStepper {
         step_tolerance_(settings.step_tolerance),
         max_passes_(settings.max_passes),
         largest_share_(std::min(law_.share, largest_share)),
-        sand_(ungated(settings, cell_size), cell_size, Givers::near_changes, start) {}
+        sand_(ungated(settings, cell_size), settings.tolerance, cell_size, Givers::near_changes, start) {}
 
   RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
     SuperStepProgress progress;

@@ -10,7 +10,8 @@ namespace {
 class TileRelaxer : public Relaxer {
  public:
   TileRelaxer(const RelaxationSettings& settings, double cell_size)
-      : max_passes_(settings.max_passes), sand_(talus_law(settings, cell_size), cell_size) {}
+      : max_passes_(settings.max_passes),
+        sand_(talus_law(settings, cell_size), settings.tolerance, cell_size) {}
 
   RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
     RelaxationOutcome outcome;

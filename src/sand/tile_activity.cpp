@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "sand/steep_tiles.h"
-
 namespace sandstroke {
 namespace {
 
@@ -12,20 +10,8 @@ constexpr int reach = 2;  // cells
 
 }  // namespace
 
-void TileActivity::wake_disturbed(HeightField& bed, double stable_slope) {
-  if (wakes_all_) {
-    wakes_all_ = false;
-    CellFlags all;
-    all.fill(~std::uint64_t{0});
-    const int existing = bed.allocated_tiles();
-    for (int slot = 0; slot < existing; ++slot) wake_around(bed, slot, {all, all_rows});
-    visit_steep_tiles(bed, stable_slope, [&](int tile) {
-      wake_around(bed, bed.allocate(tile), {all, all_rows});
-    });
-  } else {
-    for (const int slot : bed.disturbed_tiles())
-      wake_around(bed, slot, {bed.disturbed_cells(slot), all_rows});
-  }
+void TileActivity::wake_disturbed(HeightField& bed) {
+  for (const int slot : bed.disturbed_tiles()) wake_around(bed, slot, {bed.disturbed_cells(slot), all_rows});
   bed.clear_disturbed();
   make_seen_tiles(bed);
 }

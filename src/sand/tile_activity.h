@@ -11,9 +11,6 @@ namespace sandstroke {
 /// The active cells that may give sand: all, or only those within one of a change. The latter are tracked,
 /// too.
 enum class Givers { all, near_changes };
-/// The sand that the first relaxation of a bed wakes: all of it, where tiles are allocated or the rule is
-/// steep; or only what was disturbed, since all other sand rests.
-enum class FirstWake { all, disturbed };
 
 /// Tracks which cells of a bed may change in the next pass. What a cell does in a pass depends on cells up to
 /// two away (its neighbours' flows depend on their neighbours). So it can change only if one of those changed
@@ -21,13 +18,17 @@ enum class FirstWake { all, disturbed };
 /// not depend on tiles at all.
 class TileActivity {
  public:
-  explicit TileActivity(Givers givers, FirstWake first = FirstWake::all)
-      : tells_givers_(givers == Givers::near_changes), wakes_all_(first == FirstWake::all) {}
+  explicit TileActivity(Givers givers) : tells_givers_(givers == Givers::near_changes) {}
 
-  /// Wakes the cells around the disturbed ones, and clears these (HeightField::clear_disturbed). With
-  /// FirstWake::all the first call wakes every allocated tile. It also allocates and wakes the tiles whose
-  /// rule allows a slope above stable_slope (rise over run).
-  void wake_disturbed(HeightField& bed, double stable_slope);
+  /// Cells of a tile that changed; all in these rows.
+  struct Changed {
+    const CellFlags& cells;
+    RowSpan rows;
+  };
+  /// Wakes all cells within two of the changed ones. Then call wake_disturbed().
+  void wake_around(HeightField& bed, int slot, const Changed& changed);
+  /// Wakes the cells around the disturbed ones, and clears these (HeightField::clear_disturbed).
+  void wake_disturbed(HeightField& bed);
 
   /// Slots of the tiles with active cells. All tiles that an active cell can see are allocated.
   const std::vector<int>& tiles() const { return tiles_; }
@@ -37,11 +38,6 @@ class TileActivity {
   const CellFlags& seen(int slot) const { return marks_[slot].seen; }
   void look_away(int slot) { marks_[slot].seen = {}; }
 
-  /// Cells of a tile that changed; all in these rows.
-  struct Changed {
-    const CellFlags& cells;
-    RowSpan rows;
-  };
   /// Makes the cells active that lie within two of those that changed. changed(slot) tells these, for each of
   /// tiles().
   template <class ChangedIn>
@@ -71,8 +67,6 @@ class TileActivity {
   std::int64_t wake_ups() const { return wake_ups_; }
 
  private:
-  /// Wakes all cells within two of the changed ones.
-  void wake_around(HeightField& bed, int slot, const Changed& changed);
   /// Flags cells in rows [row_begin, row_begin + count) of a tile, except cells outside the bed and walls,
   /// which never change.
   void wake(HeightField& bed, int tile, int row_begin, const std::uint64_t* active,
@@ -96,7 +90,6 @@ class TileActivity {
   std::vector<int> tiles_;
   std::vector<int> tiles_before_;  // during advance(): tiles_ of the pass before
   std::int64_t wake_ups_ = 0;
-  bool wakes_all_;  // at the next wake_disturbed()
 };
 
 }  // namespace sandstroke

@@ -20,7 +20,7 @@ class EndlessPasses {
  public:
   EndlessPasses(int tiles, RelaxationLaw law, Active active, std::int64_t worth_threads)
       : bed_(bed_of(tiles)),
-        sand_(slow(law), 1.0, Givers::all, worth_threads),
+        sand_(slow(law), 0.0, 1.0, Givers::all, {}, worth_threads),
         // A cell wakes those within two: 11 x 11 that change keep 15 x 15 active.
         changed_(active == Active::patches ? square_of_cells(26, 37) : square_of_cells(0, side)) {
     sand_.begin(bed_);

@@ -6,6 +6,7 @@
 
 #include "bench/moving_sand.h"
 #include "sand/active_sand.h"
+#include "sand/slope_kernels.h"
 
 namespace sandstroke {
 namespace {

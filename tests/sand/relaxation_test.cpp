@@ -288,6 +288,51 @@ TEST_P(AllLaws, SandMovesByItsNeighbourhoodOnly) {
   EXPECT_TRUE((both.grid() == left.grid() + right.grid()).all());
 }
 
+/// A heap at rest, as a file or an array brings it, and sand that falls far beside it.
+TEST_P(AllLaws, SandAtRestStaysSoWhenARunBegins) {
+  for (const RelaxationMethod method : {RelaxationMethod::passes, RelaxationMethod::rkl}) {
+    RelaxationSettings s = settings(GetParam());
+    s.method = method;
+    HeightField heap(200, 400, 1.0);
+    for (int row = 60; row < 140; ++row)
+      for (int col = 60; col < 140; ++col) heap.set(row, col, 40.0);
+    make_relaxer(s, 1.0)->relax(heap);  // its sides lie between tan(talus) and the tolerance above it
+    const HeightGrid before = heap.grid();
+    HeightField bed(before, 1.0);
+    for (int col = 330; col < 350; ++col) bed.set(100, col, 10.0);
+    const RelaxationOutcome outcome = make_relaxer(s, 1.0)->relax(bed);
+    EXPECT_GT(outcome.passes, 0);
+    EXPECT_TRUE(outcome.converged);
+    const int beside = 300;
+    EXPECT_TRUE((bed.grid().leftCols(beside) == before.leftCols(beside)).all());
+    // It was looked at, all the same.
+    EXPECT_GT(outcome.residual, 0.5e-3);
+    EXPECT_LE(outcome.residual, 1e-3 * (1.0 + 1e-9));
+  }
+}
+
+/// What is too steep moves, wherever it is: within a tile, across the border of two, and from an untouched
+/// tile.
+TEST_P(AllLaws, SandTooSteepMovesWhenARunBegins) {
+  for (const int col : {0, 30, 63, 64, 127}) {
+    for (const double height : {5.0, -5.0}) {
+      HeightGrid one = HeightGrid::Zero(70, 128);
+      one(40, col) = height;
+      HeightField bed(one, 1.0);
+      const RelaxationOutcome outcome = make_relaxer(settings(GetParam()), 1.0)->relax(bed);
+      EXPECT_GT(outcome.passes, 0) << col << " " << height;
+      EXPECT_LE(outcome.residual, 1e-3 * (1.0 + 1e-9)) << col << " " << height;
+    }
+  }
+  HeightField pit(70, 128, 1.0,
+                  std::make_shared<LevelRule>(5.0));  // its sides are in a tile that nobody touched
+  const int slot = pit.allocate(1);
+  for (int row = 0; row < 64; ++row)
+    for (int col = 0; col < 64; ++col) pit.tile_heights(slot)[64 * row + col] = 0.0;
+  EXPECT_GT(make_relaxer(settings(GetParam()), 1.0)->relax(pit).passes, 0);
+  EXPECT_LT(pit(10, 60), 5.0);
+}
+
 TEST(IsotropicLaw, StaysWithinTheStartingRange) {  // monotone for c <= 1/4
   HeightField bed = random_bed(100, 100, 0.01, 0.3, 6);
   const double low = bed.grid().minCoeff(), high = bed.grid().maxCoeff();
