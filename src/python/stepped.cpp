@@ -52,6 +52,12 @@ class Stepped {
     const User user(user_);
     return work(*simulation_);
   }
+  /// Its copies share the sand that none of them changed.
+  std::unique_ptr<Stepped> copy() {
+    return std::unique_ptr<Stepped>(new Stepped(folder_, view_, use([](SteppedSimulation& simulation) {
+                                                  return std::make_unique<SteppedSimulation>(simulation);
+                                                })));
+  }
   const Scene& settings() const { return simulation_->scene(); }
   BedGeometry cells() const {
     const BedSettings& bed = settings().bed;
@@ -60,6 +66,10 @@ class Stepped {
   SceneHere scene() const { return {{simulation_->scene(), view_}, folder_}; }
 
  private:
+  Stepped(std::filesystem::path folder, const ViewSettings& view,
+          std::unique_ptr<SteppedSimulation> simulation)
+      : folder_(std::move(folder)), view_(view), simulation_(std::move(simulation)) {}
+
   /// Tells which thread uses the simulation while it lives.
   struct User {
     explicit User(std::atomic<std::thread::id>& user) : thread(user) { thread = std::this_thread::get_id(); }
@@ -184,6 +194,7 @@ void add_stepped(py::module_& module) {
       .def("tick", &tick, py::arg("position"), py::arg("velocity") = py::none(), py::kw_only(),
            py::arg("down") = true, py::arg("orientation") = py::none())
       .def("relax", &relax)
+      .def("copy", &Stepped::copy)
       .def("lift", [](Stepped& stepped) { stepped.use([](SteppedSimulation& s) { s.lift(); }); })
       .def("height_at",
            [](Stepped& stepped, double x, double y) {

@@ -29,8 +29,8 @@ void ActiveSand::begin(HeightField& bed) {
 void ActiveSand::know_slots(int count) {
   if (numbers_.size() >= static_cast<std::size_t>(count)) return;
   numbers_.resize(count, -1);
-  group_residuals_.resize(count);
-  residuals_.resize(count);
+  while (group_residuals_.size() < numbers_.size()) group_residuals_.emplace_back(std::in_place);
+  residuals_.resize(group_residuals_.size());
 }
 
 void ActiveSand::wake_too_steep(HeightField& bed) {
@@ -46,9 +46,9 @@ void ActiveSand::wake_too_steep(HeightField& bed) {
     const CellRange inside = bed.tile_cells(bed.tile_of(slot));
     CellFlags cells{};
     std::fill_n(cells.begin(), inside.rows(), columns_between(0, inside.cols()));
-    compute_residuals(law_, patch, cells, group_residuals_[slot].data());
-    residuals_[slot] =
-        std::max(0.0, *std::max_element(group_residuals_[slot].begin(), group_residuals_[slot].end()));
+    Residuals& residuals = group_residuals_[slot].write();
+    compute_residuals(law_, patch, cells, residuals.data());
+    residuals_[slot] = std::max(0.0, *std::max_element(residuals.begin(), residuals.end()));
   });
   // A little less, since laws do not compare slopes as fractions.
   const double limit = tolerance_ - 1e-12;
@@ -58,7 +58,7 @@ void ActiveSand::wake_too_steep(HeightField& bed) {
     CellFlags steep{};
     for (int row = 0; row < HeightField::tile_side; ++row)
       for (int group = 0; group < groups; ++group)
-        if (group_residuals_[slot][row * groups + group] > limit)
+        if ((*group_residuals_[slot])[row * groups + group] > limit)
           steep[row] |= columns_between(group * cells_per_group, (group + 1) * cells_per_group);
     activity_.wake_around(bed, slot, {steep, all_rows});
   }
@@ -143,7 +143,7 @@ void ActiveSand::end(HeightField& bed, RelaxationOutcome& outcome) {
     const RowSpan around{rows.begin - TilePatch::rim, rows.end + TilePatch::rim};
     patch.load_rows(bed, around);
     patch.load_rim(bed, around, true, true, [](int) { return nullptr; });
-    Residuals& residuals = group_residuals_[patch.slot()];
+    Residuals& residuals = group_residuals_[patch.slot()].write();
     compute_residuals(law_, patch, seen, residuals.data());
     residuals_[patch.slot()] = std::max(0.0, *std::max_element(residuals.begin(), residuals.end()));
   });

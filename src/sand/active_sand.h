@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "core/compensated_sum.h"
+#include "core/copied.h"
 #include "core/parallel.h"
+#include "core/shared_until_written.h"
 #include "sand/flow_kernels.h"
 #include "sand/relaxation.h"
 #include "sand/tile_activity.h"
@@ -123,13 +125,13 @@ class ActiveSand {
   TileActivity activity_;
 
   // Tiles of this relaxation, by number. Those beyond joined_ are left from earlier ones.
-  std::vector<std::unique_ptr<RelaxedTile>> tiles_;
+  Scratch<std::vector<std::unique_ptr<RelaxedTile>>> tiles_;
   std::size_t joined_ = 0;
-  std::vector<int> numbers_;  // per slot; -1: takes no part
+  Scratch<std::vector<int>> numbers_;  // per slot; -1: takes no part, as all between relaxations
   // Residual of each group of cells, per slot, and the largest per slot, after the last relaxation that saw
   // them.
   using Residuals = std::array<double, HeightField::tile_area / cells_per_group>;
-  std::vector<Residuals> group_residuals_;
+  std::vector<SharedUntilWritten<Residuals>> group_residuals_;
   std::vector<double> residuals_;
 
   std::int64_t active_cells_ = 0, work_ = 0, cells_visited_ = 0, wake_ups_before_ = 0;
@@ -178,6 +180,8 @@ struct SuperStepProgress {
 /// rkl.
 class SuperStepper : public Relaxer {
  public:
+  virtual std::unique_ptr<SuperStepper> copy_stepper() const = 0;
+  std::unique_ptr<Relaxer> copy() const final { return copy_stepper(); }
   /// When a part ends: after so many passes, once so many cells are awake; at the latest after most_passes.
   struct Part {
     std::int64_t passes, awake_cells, most_passes;

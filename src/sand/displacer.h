@@ -10,6 +10,8 @@ namespace sandstroke {
 class Displacer {
  public:
   virtual ~Displacer() = default;
+  /// A copy with all that it knows, for copies of a simulation; none: it cannot be copied.
+  virtual std::unique_ptr<Displacer> copy() const { return nullptr; }
   /// The tool has moved by `motion` [m] to where its footprint lies, and its tip is at tip_height [m]. Takes
   /// the sand out of the tool's way and puts it elsewhere (HeightField::set). Returns the volume moved [m^3].
   /// It must not make or lose sand, nor put any beyond the bed's wall (BedGeometry::sand_cols). The

@@ -42,13 +42,16 @@ HeightField::HeightField(const HeightField& other)
     : BedGeometry(other),
       untouched_(other.untouched_),
       slots_(zeros(tile_count())),
+      tiles_(other.tiles_),
       disturbed_(other.disturbed_),
       tool_walls_(other.tool_walls_) {
-  tiles_.reserve(other.tiles_.size());
-  for (const auto& tile : other.tiles_) {
-    slots_.get()[tile->index] = static_cast<std::uint32_t>(tiles_.size()) + 1;
-    tiles_.push_back(std::make_unique<Tile>(*tile));
+  const auto all = static_cast<std::size_t>(tile_count());
+  if (tiles_.size() > all / 8) {
+    std::copy_n(other.slots_.get(), all, slots_.get());
+    return;
   }
+  for (std::size_t slot = 0; slot < tiles_.size(); ++slot)  // leaves the pages of untouched tiles alone
+    slots_.get()[tiles_[slot]->index] = static_cast<std::uint32_t>(slot) + 1;
 }
 
 HeightField& HeightField::operator=(const HeightField& other) { return *this = HeightField(other); }
@@ -69,12 +72,11 @@ HeightField HeightField::untouched_bed() const {
 }
 
 int HeightField::make_tile(int tile) {
-  auto made = std::make_unique<Tile>();  // zeros, outside the bed too
-  made->index = tile;
-  made->revision = new_tile_revision;
-  untouched_->fill(*this, tile_cells(tile), made->heights.data(), tile_side);
-  for (int row = 0; row < tile_side; ++row) made->walls[row] = beyond_wall(tile, row);
-  tiles_.push_back(std::move(made));
+  Tile& made = tiles_.emplace_back(std::in_place).write();  // zeros, outside the bed too
+  made.index = tile;
+  made.revision = new_tile_revision;
+  untouched_->fill(*this, tile_cells(tile), made.heights.data(), tile_side);
+  for (int row = 0; row < tile_side; ++row) made.walls[row] = beyond_wall(tile, row);
   slots_.get()[tile] = static_cast<std::uint32_t>(tiles_.size());
   return allocated_tiles() - 1;
 }
@@ -94,8 +96,9 @@ double HeightField::height_at(double x, double y) const {
 
 void HeightField::clear_disturbed() {
   for (const int slot : disturbed_) {
-    tiles_[slot]->disturbed = {};
-    tiles_[slot]->listed = false;
+    Tile& tile = tiles_[slot].write();
+    tile.disturbed = {};
+    tile.listed = false;
   }
   disturbed_.clear();
 }
@@ -110,8 +113,8 @@ void HeightField::set_tool_walls(const std::vector<RowCells>& cells) {
   };
   disturb_free(cells);
   for (const RowCells& row : tool_walls_)
-    tiles_[row.slot]->walls[row.row_in_tile] = beyond_wall(tiles_[row.slot]->index, row.row_in_tile);
-  for (const RowCells& row : cells) tiles_[row.slot]->walls[row.row_in_tile] |= row.cells;
+    tiles_[row.slot].write().walls[row.row_in_tile] = beyond_wall(tile_of(row.slot), row.row_in_tile);
+  for (const RowCells& row : cells) tiles_[row.slot].write().walls[row.row_in_tile] |= row.cells;
   disturb_free(tool_walls_);
   tool_walls_ = cells;
 }

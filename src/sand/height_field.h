@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/shared_until_written.h"
 #include "rules/talus.h"
 #include "sand/bed_geometry.h"
 #include "sand/cell_flags.h"
@@ -33,6 +34,7 @@ class HeightField : public BedGeometry {
               BedShape shape = BedShape::rectangle);
   /// A bed with these heights. All tiles are allocated.
   HeightField(const HeightGrid& heights, double cell_size, BedShape shape = BedShape::rectangle);
+  /// Copies share tiles until one of them writes there.
   HeightField(const HeightField& other);
   HeightField& operator=(const HeightField& other);
   HeightField(HeightField&&) = default;
@@ -47,7 +49,7 @@ class HeightField : public BedGeometry {
   /// Sets one cell. The next relaxation looks there.
   void set(int row, int col, double height) {
     const int slot = allocate(tile_index(row / tile_side, col / tile_side));
-    tiles_[slot]->heights[in_tile(row, col)] = height;
+    tiles_[slot].write().heights[in_tile(row, col)] = height;
     mark_disturbed(slot, row % tile_side, std::uint64_t{1} << (col % tile_side));
   }
 
@@ -83,10 +85,10 @@ class HeightField : public BedGeometry {
   /// tile_side x tile_side heights, row-major, on a 64-byte boundary; those outside the bed are unused.
   const double* tile_heights(int slot) const { return tiles_[slot]->heights.data(); }
   /// The same, for writing. Then call mark_changed, or mark_disturbed if the next relaxation must look there.
-  double* tile_heights(int slot) { return tiles_[slot]->heights.data(); }
-  void mark_changed(int slot) { ++tiles_[slot]->revision; }
+  double* tile_heights(int slot) { return tiles_[slot].write().heights.data(); }
+  void mark_changed(int slot) { ++tiles_[slot].write().revision; }
   void mark_disturbed(int slot, int row_in_tile, std::uint64_t cells) {
-    Tile& tile = *tiles_[slot];
+    Tile& tile = tiles_[slot].write();
     ++tile.revision;
     tile.disturbed[row_in_tile] |= cells;
     if (tile.listed) return;
@@ -161,7 +163,7 @@ class HeightField : public BedGeometry {
   std::shared_ptr<const SurfaceRule> untouched_;
   // Per tile of the bed: slot + 1, or 0. From calloc, so that untouched pages of a huge bed take no memory.
   std::unique_ptr<std::uint32_t, Free> slots_;
-  std::vector<std::unique_ptr<Tile>> tiles_;
+  std::vector<SharedUntilWritten<Tile>> tiles_;
   std::vector<int> disturbed_;
   std::vector<RowCells> tool_walls_;
 };

@@ -72,6 +72,8 @@ using PassWatcher = std::function<void(std::int64_t passes, const BedNow& bed_no
 class Relaxer {
  public:
   virtual ~Relaxer() = default;
+  /// A copy that goes on with a copy of the bed; none: it cannot be copied.
+  virtual std::unique_ptr<Relaxer> copy() const { return nullptr; }
   /// Stops at equilibrium, after max_passes (those that changed something, rejected ones included), or when
   /// interrupted(). Meanwhile the bed keeps its old heights, unless after_pass asks for it.
   virtual RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass = {}) = 0;

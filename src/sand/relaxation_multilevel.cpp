@@ -31,6 +31,11 @@ class MultilevelRelaxer : public Relaxer {
       : settings_(settings),
         talus_factors_(start.talus_factors),
         stepper_(make_super_stepper(settings, cell_size, start)) {}
+  MultilevelRelaxer(const MultilevelRelaxer& other)
+      : settings_(other.settings_),
+        talus_factors_(other.talus_factors_),
+        stepper_(other.stepper_->copy_stepper()) {}
+  std::unique_ptr<Relaxer> copy() const override { return std::make_unique<MultilevelRelaxer>(*this); }
 
   RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
     return relax(bed, 0.0, after_pass);

@@ -94,6 +94,7 @@ class RklRelaxer : public SuperStepper {
     return outcome_;
   }
 
+  std::unique_ptr<SuperStepper> copy_stepper() const override { return std::make_unique<RklRelaxer>(*this); }
   const std::vector<int>& awake_tiles() const override { return sand_.tiles(); }
 
   struct StepTile {
@@ -268,8 +269,8 @@ class RklRelaxer : public SuperStepper {
   double largest_share_;
   ActiveSand sand_;
 
-  std::vector<std::unique_ptr<StepTile>> tiles_;  // by number in sand_
-  std::int64_t step_ = 0;                         // which super-step this is
+  Scratch<std::vector<std::unique_ptr<StepTile>>> tiles_;  // by number in sand_
+  std::int64_t step_ = 0;                                  // which super-step this is
 
   // State of this relaxation, or of this part of it.
   Part part_{};

@@ -12,6 +12,7 @@ class TileRelaxer : public Relaxer {
   TileRelaxer(const RelaxationSettings& settings, double cell_size)
       : max_passes_(settings.max_passes),
         sand_(talus_law(settings, cell_size), settings.tolerance, cell_size) {}
+  std::unique_ptr<Relaxer> copy() const override { return std::make_unique<TileRelaxer>(*this); }
 
   RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
     RelaxationOutcome outcome;

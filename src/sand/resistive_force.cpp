@@ -41,12 +41,12 @@ ResistiveForce::ResistiveForce(const TriangleMesh& surface, double element_size,
     : elements_(surface, element_size),
       before_(surface, elements_),
       wedge_(wedge_reach(talus_angle)),
-      ways_(hwy::AllocateAligned<double>(3 * elements_.size())) {
+      ways_(3 * elements_.size()) {
   lift();
 }
 
 void ResistiveForce::lift() {
-  std::fill_n(ways_.get(), 3 * elements_.size(), 0.0);
+  std::fill(ways_.begin(), ways_.end(), 0.0);
   before_.lift();
   felt_ = false;
 }
@@ -67,7 +67,7 @@ Wrench ResistiveForce::feel(const HeightField& bed, const ToolFootprint& footpri
     return {};
   }
   return resistive_wrench(
-      {elements_, before_, ways_.get(), tip.z(), ways, resistance(sand), sand.tool_friction});
+      {elements_, before_, ways_.data(), tip.z(), ways, resistance(sand), sand.tool_friction});
 }
 
 }  // namespace sandstroke

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <memory>
 
+#include "core/aligned_vector.h"
 #include "sand/sand_before.h"
 
 namespace sandstroke {
@@ -99,7 +100,7 @@ class ResistiveForce {
   ToolElements elements_;
   SandBefore before_;
   double wedge_;
-  hwy::AlignedFreeUniquePtr<double[]> ways_;  // 3 columns: x, y, z
+  AlignedVector<double> ways_;  // 3 columns: x, y, z
   Eigen::Matrix3d felt_rotation_ = Eigen::Matrix3d::Identity();
   bool felt_ = false;  // since the last lift()
 };

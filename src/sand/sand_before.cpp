@@ -139,7 +139,7 @@ bool enters(const Vector3d& from, const Vector3d& along, const Vector3d& a, cons
 SandBefore::SandBefore(const TriangleMesh& surface, const ToolElements& elements)
     : size_(side_size(surface)),
       sides_(surface, size_),
-      side_of_(hwy::AllocateAligned<std::int64_t>(elements.size())),
+      side_of_(elements.size()),
       outward_(sides_.size(), Vector2d::Zero()),
       weights_(sides_.size(), 0.0),
       ways_(sides_.size(), Vector3d::Zero()),
@@ -150,7 +150,6 @@ SandBefore::SandBefore(const TriangleMesh& surface, const ToolElements& elements
       known_(sides_.size(), unknown),
       heights_(sides_.size(), 0.0),
       enclosed_(sides_.size(), false) {
-  std::fill_n(side_of_.get(), elements.size(), 0);
   for (int i = 0; i < elements.count(); ++i) {
     double nearest = std::numeric_limits<double>::infinity();
     for (int side = 0; side < sides_.count(); ++side) {

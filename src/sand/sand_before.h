@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/aligned_vector.h"
 #include "sand/tool_footprint.h"
 #include "tool/tool_elements.h"
 
@@ -47,7 +48,7 @@ class SandBefore {
             const Motion& motion, double wedge);
 
   /// The side of each element, elements.size() numbers.
-  const std::int64_t* side_of() const { return side_of_.get(); }
+  const std::int64_t* side_of() const { return side_of_.data(); }
   /// m, of the sand before each side. -infinity: no sand gets there.
   const double* heights() const { return heights_.data(); }
   /// The height for a surface that looks straight down or up, and moves in direction u: the sides' mean, in
@@ -72,7 +73,7 @@ class SandBefore {
 
   double size_;  // m, of a side
   ToolElements sides_;
-  hwy::AlignedFreeUniquePtr<std::int64_t[]> side_of_;
+  AlignedVector<std::int64_t> side_of_;
   std::vector<Eigen::Vector2d> outward_;  // of each side, a horizontal unit vector; 0: it looks nowhere
   std::vector<double> weights_;           // m^2, its area by how much it looks sideways
   std::vector<Eigen::Vector3d> ways_;     // of each side through the sand, in yield ways, at most 1

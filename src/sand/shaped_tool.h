@@ -14,6 +14,7 @@ namespace sandstroke {
 class ShapedTool : public Tool {
  public:
   explicit ShapedTool(const ToolSettings& settings);
+  std::unique_ptr<Tool> copy() const override { return std::make_unique<ShapedTool>(*this); }
 
   double lowest() const override { return envelope_ ? envelope_->lowest() : 0.0; }
   /// Distance of the farthest point from the tip [m].

@@ -9,6 +9,7 @@ namespace sandstroke {
 class SphereTool : public Tool {
  public:
   explicit SphereTool(const ToolSettings& settings);
+  std::unique_ptr<Tool> copy() const override { return std::make_unique<SphereTool>(*this); }
 
   /// Sets sand_level() to the mean height of the sand under the footprint. Cells with u <= u1 count in full;
   /// the weight fades out within a cell around them, so that the level changes continuously as the tool

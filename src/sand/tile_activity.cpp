@@ -17,7 +17,7 @@ void TileActivity::wake_disturbed(HeightField& bed) {
 }
 
 void TileActivity::rest() {
-  for (const int slot : tiles_) marks_[slot].sleep();
+  for (const int slot : tiles_) marks_[slot]->sleep();
   tiles_.clear();
 }
 
@@ -30,8 +30,7 @@ void TileActivity::wake(HeightField& bed, int tile, int row_begin, const std::ui
   for (int r = 0; r < count; ++r) some |= active[r] & inside;
   if (!some) return;
   const int slot = bed.allocate(tile);
-  if (marks_.size() <= static_cast<std::size_t>(slot)) marks_.resize(slot + 1);
-  Marks& marks = marks_[slot];
+  Marks& marks = marks_.make(slot);
   const std::uint64_t* walls = bed.walls(slot).data() + row_begin;
   RowSpan rows{row_begin + count, row_begin};
   for (int r = 0; r < count; ++r) {
@@ -109,8 +108,8 @@ void TileActivity::wake_around(HeightField& bed, int slot, const Changed& change
 
 void TileActivity::make_seen_tiles(HeightField& bed) {
   for (const int slot : tiles_) {
-    const CellFlags& active = marks_[slot].active;
-    const std::uint64_t all = columns_of(active, marks_[slot].rows);
+    const CellFlags& active = marks_[slot]->active;
+    const std::uint64_t all = columns_of(active, marks_[slot]->rows);
     const bool sees_north = (active[0] | active[1]) != 0,
                sees_south = (active[side - 2] | active[side - 1]) != 0;
     const bool sees_west = (all & columns_between(0, reach)) != 0,

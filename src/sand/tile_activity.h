@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -32,11 +33,11 @@ class TileActivity {
 
   /// Slots of the tiles with active cells. All tiles that an active cell can see are allocated.
   const std::vector<int>& tiles() const { return tiles_; }
-  const CellFlags& cells(int slot) const { return marks_[slot].active; }
-  RowSpan rows(int slot) const { return marks_[slot].rows; }  ///< rows with active cells
+  const CellFlags& cells(int slot) const { return marks_[slot]->active; }
+  RowSpan rows(int slot) const { return marks_[slot]->rows; }  ///< rows with active cells
   /// Cells that were active at some time since look_away(), or would have been if they were no walls.
-  const CellFlags& seen(int slot) const { return marks_[slot].seen; }
-  void look_away(int slot) { marks_[slot].seen = {}; }
+  const CellFlags& seen(int slot) const { return marks_[slot]->seen; }
+  void look_away(int slot) { marks_[slot]->seen = {}; }
 
   /// Makes the cells active that lie within two of those that changed. changed(slot) tells these, for each of
   /// tiles().
@@ -44,12 +45,12 @@ class TileActivity {
   void advance(HeightField& bed, const ChangedIn& changed) {
     std::swap(tiles_before_, tiles_);
     for (const int slot : tiles_before_) {
-      marks_[slot].sleep();
-      marks_[slot].was_active = true;
+      marks_[slot]->sleep();
+      marks_[slot]->was_active = true;
     }
     tiles_.clear();
     for (const int slot : tiles_before_) wake_around(bed, slot, changed(slot));
-    for (const int slot : tiles_before_) marks_[slot].was_active = false;
+    for (const int slot : tiles_before_) marks_[slot]->was_active = false;
     make_seen_tiles(bed);
   }
 
@@ -59,10 +60,10 @@ class TileActivity {
   /// Cells of a tile that may give.
   const CellFlags& givers(int slot) const {
     static constexpr CellFlags none{};
-    return static_cast<std::size_t>(slot) < marks_.size() ? marks_[slot].givers : none;
+    return static_cast<std::size_t>(slot) < marks_.size() && marks_[slot] ? marks_[slot]->givers : none;
   }
 
-  static constexpr std::size_t bytes_per_tile() { return sizeof(Marks); }
+  static constexpr std::size_t bytes_per_tile() { return sizeof(Marks) + sizeof(std::unique_ptr<Marks>); }
   /// How often a tile at rest became active, since construction.
   std::int64_t wake_ups() const { return wake_ups_; }
 
@@ -85,8 +86,27 @@ class TileActivity {
     }
   };
 
+  /// By slot; none while nothing was awake there. A copy has those of tiles that are awake.
+  class MarksBySlot : public std::vector<std::unique_ptr<Marks>> {
+   public:
+    MarksBySlot() = default;
+    MarksBySlot(const MarksBySlot& other) : vector() {
+      for (std::size_t slot = 0; slot < other.size(); ++slot)
+        if (other[slot] && other[slot]->listed) make(slot) = *other[slot];
+    }
+    MarksBySlot(MarksBySlot&&) noexcept = default;
+    MarksBySlot& operator=(const MarksBySlot& other) { return *this = MarksBySlot(other); }
+    MarksBySlot& operator=(MarksBySlot&&) noexcept = default;
+
+    Marks& make(std::size_t slot) {
+      if (size() <= slot) resize(slot + 1);
+      if (!(*this)[slot]) (*this)[slot] = std::make_unique<Marks>();
+      return *(*this)[slot];
+    }
+  };
+
   bool tells_givers_;
-  std::vector<Marks> marks_;  // per slot
+  MarksBySlot marks_;
   std::vector<int> tiles_;
   std::vector<int> tiles_before_;  // during advance(): tiles_ of the pass before
   std::int64_t wake_ups_ = 0;

@@ -15,6 +15,7 @@ namespace sandstroke {
 class Tool {
  public:
   virtual ~Tool() = default;
+  virtual std::unique_ptr<Tool> copy() const = 0;
 
   /// Radius [m] of the sphere, or of the largest circle in any other tool's footprint. A tool that moves
   /// farther than this at once leaves no furrow.

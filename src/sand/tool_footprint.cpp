@@ -77,10 +77,9 @@ void ToolFootprint::make_room() {
   // must not allocate memory.
   room_ = static_cast<std::size_t>(cells_.rows() + 1) * (stride_ + cells_per_group);
   for (auto* memory : {&heights_, &underside_, &takes_, &ring_weight_, &weights_, &excess_}) {
-    *memory = hwy::AllocateAligned<double>(room_);
-    std::fill_n(memory->get(), room_, 0.0);
+    memory->assign(room_, 0.0);
   }
-  flags_ = hwy::AllocateAligned<unsigned char>(room_ / cells_per_group + 1);
+  flags_.resize(room_ / cells_per_group + 1);
 }
 
 void ToolFootprint::read_heights(const HeightField& bed) {

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <hwy/aligned_allocator.h>
-
 #include <vector>
 
+#include "core/aligned_vector.h"
 #include "sand/height_field.h"
 
 namespace sandstroke {
@@ -43,22 +42,22 @@ class ToolFootprint {
   }
 
   // Data of a row of the window. The functions in footprint_kernels.h fill in what each cell is to the tool.
-  double* heights(int row) { return heights_.get() + at(row); }  ///< m, of the sand
-  const double* heights(int row) const { return heights_.get() + at(row); }
+  double* heights(int row) { return heights_.data() + at(row); }  ///< m, of the sand
+  const double* heights(int row) const { return heights_.data() + at(row); }
   /// The tool's underside above its tip [m]; infinite outside the bowl.
-  double* underside(int row) { return underside_.get() + at(row); }
-  const double* underside(int row) const { return underside_.get() + at(row); }
+  double* underside(int row) { return underside_.data() + at(row); }
+  const double* underside(int row) const { return underside_.data() + at(row); }
   /// 1 where there is sand outside the bowl; elsewhere 0.
-  double* takes(int row) { return takes_.get() + at(row); }
-  const double* takes(int row) const { return takes_.get() + at(row); }
+  double* takes(int row) { return takes_.data() + at(row); }
+  const double* takes(int row) const { return takes_.data() + at(row); }
   /// Positive filter sin(u) - 0.53; 0 outside the ring (u0 < u <= u1). Filled by a sphere's ring only.
-  double* ring_weight(int row) { return ring_weight_.get() + at(row); }
-  const double* ring_weight(int row) const { return ring_weight_.get() + at(row); }
+  double* ring_weight(int row) { return ring_weight_.data() + at(row); }
+  const double* ring_weight(int row) const { return ring_weight_.data() + at(row); }
   // Data of one displacement: the weight of each cell in the deposit, the sand that was carved out of each
   // flagged cell [m], and a flag for each cell whose height was changed here (a byte per group).
-  double* weights(int row) { return weights_.get() + at(row); }
-  double* excess(int row) { return excess_.get() + at(row); }
-  unsigned char* flags(int row) { return flags_.get() + at(row) / cells_per_group; }
+  double* weights(int row) { return weights_.data() + at(row); }
+  double* excess(int row) { return excess_.data() + at(row); }
+  unsigned char* flags(int row) { return flags_.data() + at(row) / cells_per_group; }
 
   /// Reads the sand again, from the bed that the window lies on.
   void read_heights(const HeightField& bed);
@@ -77,8 +76,8 @@ class ToolFootprint {
   int stride_ = 0;
   double axis_x_ = 0.0, axis_y_ = 0.0, first_x_ = 0.0, first_y_ = 0.0;
   std::size_t room_ = 0;
-  hwy::AlignedFreeUniquePtr<double[]> heights_, underside_, takes_, ring_weight_, weights_, excess_;
-  hwy::AlignedFreeUniquePtr<unsigned char[]> flags_;
+  AlignedVector<double> heights_, underside_, takes_, ring_weight_, weights_, excess_;
+  AlignedVector<unsigned char> flags_;
   std::vector<RowCells> bowl_;  // buffer of make_walls()
 };
 

@@ -85,6 +85,7 @@ class ElasticForce : public ToolForce {
 
 class RftForce : public ElasticForce {
  public:
+  std::unique_ptr<ToolForce> copy() const override { return std::make_unique<RftForce>(*this); }
   RftForce(const Scene& scene, double cell_size)
       : ElasticForce(scene),
         sand_(scene.strength),
@@ -110,6 +111,7 @@ class RftForce : public ElasticForce {
 /// It goes by the plane of the sand around the tool.
 class ArchimedesForce : public ElasticForce {
  public:
+  std::unique_ptr<ToolForce> copy() const override { return std::make_unique<ArchimedesForce>(*this); }
   ArchimedesForce(const Scene& scene, double cell_size)
       : ElasticForce(scene), sand_(scene.strength), elements_(tool_surface(scene.tool), cell_size) {
     if (scene.tool.shape == ToolShape::sphere) sphere_radius_ = scene.tool.radius;

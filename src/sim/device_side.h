@@ -45,7 +45,7 @@ class DeviceSide {
   void watch(const TickRecord& record, const Eigen::Vector3d& motion);
   double faded_in(const TickRecord& record);
 
-  std::unique_ptr<DeviceForce> force_;
+  std::shared_ptr<const DeviceForce> force_;  // knows nothing of the ticks before
   SimulatedDevice device_;
   LateForce late_force_;
   EnergyAccount energy_;

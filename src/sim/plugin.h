@@ -19,7 +19,7 @@ namespace sandstroke {
 /// `interface` by hand when a class that laws derive from changes. static: a plugin must not find another
 /// library's, built with other flags.
 static inline std::string plugin_interface() {
-  constexpr int interface = 2;
+  constexpr int interface = 3;
   return fmt::format(
       "sandstroke {}, laws {}, C++ ABI {}.{}, Eigen {}.{}.{} aligned to {} and {} bytes, indices of {} "
       "bytes, {} floating point, objects of {} {} {} {} {} {} bytes aligned to {} {} {}",

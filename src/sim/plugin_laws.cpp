@@ -33,6 +33,14 @@ auto by_law(const std::string& law, const Work& work) {
   }
 }
 
+/// Error: input, if the law cannot be copied.
+template <class Law>
+std::unique_ptr<Law> copy_of(const Law& plugin_law, const std::string& law) {
+  std::unique_ptr<Law> copy = by_law(law, [&] { return plugin_law.copy(); });
+  if (!copy) throw_input_error("{} cannot be copied with a simulation: it has no copy(); override that", law);
+  return copy;
+}
+
 /// Error: unstable, where the volume [m^3] that a law says it has moved cannot be true.
 void check_moved_volume(const std::string& law, double volume) {
   if (!(volume >= 0.0 && std::isfinite(volume)))
@@ -46,6 +54,9 @@ class WatchedRelaxer : public Relaxer {
  public:
   WatchedRelaxer(std::string law, std::unique_ptr<Relaxer> plugin_law)
       : law_(std::move(law)), plugin_law_(std::move(plugin_law)) {}
+  std::unique_ptr<Relaxer> copy() const override {
+    return std::make_unique<WatchedRelaxer>(law_, copy_of(*plugin_law_, law_));
+  }
 
   RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
     const BedGeometry before = bed;
@@ -79,6 +90,9 @@ class WatchedDisplacer : public Displacer {
  public:
   WatchedDisplacer(std::string law, std::unique_ptr<Displacer> plugin_law)
       : law_(std::move(law)), plugin_law_(std::move(plugin_law)) {}
+  std::unique_ptr<Displacer> copy() const override {
+    return std::make_unique<WatchedDisplacer>(law_, copy_of(*plugin_law_, law_));
+  }
 
   double displace(HeightField& bed, const Tool& tool, double tip_height,
                   const Eigen::Vector3d& motion) override {
@@ -96,6 +110,9 @@ class WatchedForce : public ToolForce {
  public:
   WatchedForce(std::string law, std::unique_ptr<ToolForce> plugin_law)
       : law_(std::move(law)), plugin_law_(std::move(plugin_law)) {}
+  std::unique_ptr<ToolForce> copy() const override {
+    return std::make_unique<WatchedForce>(law_, copy_of(*plugin_law_, law_));
+  }
 
   Wrench feel(const ToolInSand& touch) override {
     Wrench wrench = by_law(law_, [&] { return plugin_law_->feel(touch); });

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/copied.h"
 #include "sand/relaxation.h"
 
 namespace sandstroke {
@@ -33,7 +34,7 @@ class SandAtRest {
   void take_tile(const HeightField& bed, int slot);
 
   HeightField copy_;
-  std::unique_ptr<Relaxer> relaxer_;
+  Copied<Relaxer> relaxer_;
   std::vector<Revisions> same_;  // by the copy's slots
 };
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/copied.h"
 #include "rules/schedule.h"
 #include "sand/displacer.h"
 #include "sand/relaxation.h"
@@ -72,7 +73,7 @@ class SandSide {
     return *tool_;
   }
   /// Swaps the tool for another one, which is used from the next move() on.
-  void exchange(std::unique_ptr<Tool>& other) { std::swap(tool_, other); }
+  void exchange(std::unique_ptr<Tool>& other) { std::swap(tool_.pointer(), other); }
   /// Position of the tool in the last tick [m]; none if it was lifted since.
   const std::optional<Eigen::Vector3d>& last_tip() const { return last_tip_; }
 
@@ -85,9 +86,9 @@ class SandSide {
   /// The volume moved [m^3].
   double displace_sand(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion);
 
-  std::unique_ptr<Tool> tool_;
+  Copied<Tool> tool_;
   DisplacementSettings displacement_;
-  std::unique_ptr<Displacer> plugin_law_;
+  Copied<Displacer> plugin_law_;
   bool solid_;
   double way_, way_at_rim_;  // radii
   RelaxationByWay by_way_;

@@ -13,7 +13,9 @@ struct ToldMotion {
 };
 
 /// A run that the caller drives, tick by tick: a controller, an optimiser, a learner. With the hand of a
-/// stroke, its velocities and its lifts it has the same bits as Simulation.
+/// stroke, its velocities and its lifts it has the same bits as Simulation. Copies go on with the same bits,
+/// in any thread. They share the sand that none of them changed, so a copy costs what differs. Error of
+/// copying: input, if a plugin law has no copy().
 class SteppedSimulation {
  public:
   /// relaxes: sand relaxes as the scene says (relaxation.rate, way); otherwise only when relax() is called.

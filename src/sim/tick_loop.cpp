@@ -7,7 +7,7 @@
 namespace sandstroke {
 
 TickLoop::TickLoop(const Scene& scene, HeightField bed, bool plays, std::unique_ptr<Relaxer> relaxer)
-    : scene_(scene),
+    : scene_(std::make_shared<const Scene>(scene)),
       bed_(std::move(bed)),
       own_rotation_(own_rotation(scene.tool)),
       sand_(scene.tool, scene.displacement, scene.relaxation,
@@ -49,8 +49,8 @@ void TickLoop::turn_tool(const Hand& hand) {
 /// Depth, both passes of the displacement along the tool's path, relaxations by its way, and what the sand
 /// then does to the tool.
 void TickLoop::displace(TickRecord& record, const TickInput& tick) {
-  const Eigen::Vector3d tip = tip_of(scene_.device, record.device_position);
-  const Eigen::Vector3d true_tip = tip_of(scene_.device, device_.device().state().position);
+  const Eigen::Vector3d tip = tip_of(scene().device, record.device_position);
+  const Eigen::Vector3d true_tip = tip_of(scene().device, device_.device().state().position);
   const std::optional<Eigen::Vector3d> before = sand_.last_tip();
   const Interaction interaction = sand_.move(bed_, tip, true_tip, tick.relax);
   const Eigen::Vector3d motion = before ? Eigen::Vector3d(true_tip - *before) : Eigen::Vector3d::Zero();
@@ -74,16 +74,16 @@ void TickLoop::lift() {
 
 RelaxationOutcome TickLoop::relax(const PassWatcher& watcher) {
   sand_.make_walls(bed_);
-  check_plugin_law("displacement", scene_.plugin_laws.displacement);
+  check_plugin_law("displacement", scene().plugin_laws.displacement);
   const RelaxationOutcome outcome = relaxer_->relax(bed_, watcher);
   sand_.relaxed(bed_);
-  check_plugin_law("relaxation", scene_.plugin_laws.relaxation);
+  check_plugin_law("relaxation", scene().plugin_laws.relaxation);
   return outcome;
 }
 
 const HeightField& TickLoop::bed_at_rest() {
-  const RelaxationSettings& settings = scene_.relaxation;
-  if (!scene_.plugin_laws.relaxation.empty() || (settings.rate == 0.0 && settings.way == 0.0)) return bed_;
+  const RelaxationSettings& settings = scene().relaxation;
+  if (!scene().plugin_laws.relaxation.empty() || (settings.rate == 0.0 && settings.way == 0.0)) return bed_;
   if (!at_rest_) at_rest_.emplace(bed_, make_relaxer(settings, bed_.cell_size()));
   sand_.make_walls(at_rest_->follow(bed_));
   at_rest_->relax();
@@ -91,18 +91,18 @@ const HeightField& TickLoop::bed_at_rest() {
 }
 
 void TickLoop::check_near(const TickRecord& record) const {
-  const double hand = std::max(tip_of(scene_.device, record.hand.position).norm(),
-                               tip_of(scene_.device, record.next.position).norm());
-  const double far = 100.0 * (scene_.bed.width + scene_.bed.depth) + 2.0 * hand;
-  const double distance = tip_of(scene_.device, device_.device().state().position).norm();
+  const double hand = std::max(tip_of(scene().device, record.hand.position).norm(),
+                               tip_of(scene().device, record.next.position).norm());
+  const double far = 100.0 * (scene().bed.width + scene().bed.depth) + 2.0 * hand;
+  const double distance = tip_of(scene().device, device_.device().state().position).norm();
   if (!(distance < far))
     throw Error(ErrorKind::unstable,
                 fmt::format("at {:.4f} s the device has diverged ({:.3g} m from the bed's centre); {}",
-                            record.time, distance, loop_remedies(scene_, device_.result().max_drag_force)));
+                            record.time, distance, loop_remedies(scene(), device_.result().max_drag_force)));
 }
 
 void TickLoop::check_plugin_law(const char* key, const std::string& name) {
-  if (!name.empty()) watch_->check(bed_, law_in_words(scene_.plugin_laws, key, name));
+  if (!name.empty()) watch_->check(bed_, law_in_words(scene().plugin_laws, key, name));
 }
 
 }  // namespace sandstroke

@@ -31,7 +31,7 @@ class TickLoop {
   /// plays: a hand will move the tool; else the bed is only relaxed. relaxer: none = as the scene says.
   TickLoop(const Scene& scene, HeightField bed, bool plays, std::unique_ptr<Relaxer> relaxer = nullptr);
 
-  const Scene& scene() const { return scene_; }
+  const Scene& scene() const { return *scene_; }
   const HeightField& bed() const { return bed_; }
   /// The trace has torques.
   bool has_torque() const { return tool_force_->gives_wrench(); }
@@ -62,13 +62,13 @@ class TickLoop {
   void check_near(const TickRecord& record) const;
   void check_plugin_law(const char* key, const std::string& name);
 
-  Scene scene_;
+  std::shared_ptr<const Scene> scene_;
   HeightField bed_;
   Eigen::Matrix3d own_rotation_;  // of the tool
   SandSide sand_;
-  std::unique_ptr<ToolForce> tool_force_;
+  Copied<ToolForce> tool_force_;
   DeviceSide device_;
-  std::unique_ptr<Relaxer> relaxer_;
+  Copied<Relaxer> relaxer_;
   std::optional<SandAtRest> at_rest_;
   std::optional<SandWatch> watch_;  // where a law that is not this library's moves sand
 };

@@ -20,6 +20,8 @@ struct ToolInSand {
 class ToolForce {
  public:
   virtual ~ToolForce() = default;
+  /// A copy with all that it knows, for copies of a simulation; none: it cannot be copied.
+  virtual std::unique_ptr<ToolForce> copy() const { return nullptr; }
   /// Feels in a tick in contact.
   virtual Wrench feel(const ToolInSand& touch) = 0;
   /// The tool touches no sand: what was known of its way is gone.
@@ -47,6 +49,7 @@ class ToolForce {
 /// The paper's law has none: it gives the device a force by depth and velocity (DeviceForce).
 class NoToolForce : public ToolForce {
  public:
+  std::unique_ptr<ToolForce> copy() const override { return std::make_unique<NoToolForce>(); }
   Wrench feel(const ToolInSand& /*touch*/) override { return {}; }
   bool gives_wrench() const override { return false; }
 };

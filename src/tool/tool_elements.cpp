@@ -84,8 +84,7 @@ ToolElements::ToolElements(const TriangleMesh& surface, double size) {
     patches.add(surface.corner(i, 0), surface.corner(i, 1), surface.corner(i, 2));
   count_ = static_cast<int>(patches.all.size());
   size_ = (patches.all.size() + cells_per_group - 1) / cells_per_group * cells_per_group;
-  columns_ = hwy::AllocateAligned<double>(7 * size_);
-  std::fill_n(columns_.get(), 7 * size_, 0.0);
+  columns_.assign(7 * size_, 0.0);
   // Sorts by layer, and by direction in each layer. So most groups of a kernel lie as a whole above or below
   // the sand, and lead or trail as a whole.
   std::vector<std::pair<Order, const Patch*>> order;

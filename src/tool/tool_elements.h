@@ -1,9 +1,8 @@
 #pragma once
 
-#include <hwy/aligned_allocator.h>
-
 #include <vector>
 
+#include "core/aligned_vector.h"
 #include "tool/triangle_mesh.h"
 
 namespace sandstroke {
@@ -34,14 +33,14 @@ class ToolElements {
   double lowest() const { return lowest_; }         ///< m above the tip, of the centres
 
  private:
-  const double* column(std::size_t i) const { return columns_.get() + i * size_; }
+  const double* column(std::size_t i) const { return columns_.data() + i * size_; }
 
   std::size_t size_ = 0;
   int count_ = 0;
   double lowest_ = 0.0;
   Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Zero();  // none yet
   std::vector<Eigen::Vector3d> centres_, normals_;      // in its own frame
-  hwy::AlignedFreeUniquePtr<double[]> columns_;
+  AlignedVector<double> columns_;
 };
 
 }  // namespace sandstroke

@@ -1,4 +1,5 @@
 """Ticks that Python drives are those of a run."""
+import copy
 import gc
 import resource
 import subprocess
@@ -39,6 +40,45 @@ def test_sand_keeps_its_volume_and_relaxes_when_told(small):
     assert np.abs(np.diff(sim.heights, axis=0)).max() < steep
     assert abs(sim.volume) < 1e-15
     assert sim.height_at(0.0, 0.0) < -0.002 and np.isnan(sim.height_at(1.0, 0.0))
+
+
+@pytest.mark.parametrize("device", ["kinematic", "dynamic"])
+def test_a_copy_goes_on_by_itself(small, device):
+    def hand(k):
+        return (-0.05 + 5e-4 * k, 0.002 * np.sin(0.3 * k), -0.005)
+
+    sim = sandstroke.Simulation(small, settings={**RFT, "device.model": device})
+    for k in range(60):
+        sim.tick(hand(k))
+    tried, other, third = sim.copy(), copy.copy(sim), copy.deepcopy(sim)
+    here = sim.heights
+    forces = [tried.tick(hand(k)).force for k in range(60, 120)]
+    assert np.array_equal(sim.heights, here) and not np.array_equal(tried.heights, here)
+    assert sim.time == other.time == third.time == 0.06 and tried.time == 0.12
+
+    def go_on(one, result):
+        result.extend(one.tick(hand(k)).force for k in range(60, 120))
+
+    others = [(one, []) for one in (sim, other, third)]
+    threads = [threading.Thread(target=go_on, args=pair) for pair in others]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for one, result in others:
+        assert np.array_equal(result, forces)
+        assert np.array_equal(one.heights, tried.heights)
+
+
+def test_a_copy_with_a_law_of_ones_own_is_refused(small):
+    def spring(depth, motion, tip, **numbers):
+        return (0.0, 0.0, 100.0 * max(depth, 0.0))
+
+    sim = sandstroke.Simulation(small, laws={"force": spring})
+    sim.tick((0.0, 0.0, -0.004))
+    with pytest.raises(sandstroke.InputError, match="force .*cannot be copied"):
+        sim.copy()
+    assert sim.tick((0.0, 0.0, -0.004)).force[2] > 0.0
 
 
 def test_relaxation_has_a_former_name(small):

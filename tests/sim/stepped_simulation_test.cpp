@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
+#include <thread>
+#include <vector>
 
 #include "core/error.h"
 #include "sim/simulation.h"
@@ -119,6 +122,137 @@ TEST(SteppedSimulation, RefusesWhatIsNoNumberAndAHandThatMustBeKnownBefore) {
   scene.device.model = DeviceModel::dynamic;
   scene.device.drag = DragVelocity::implicit;
   EXPECT_THROW(SteppedSimulation(scene, starting_bed(scene.bed)), Error);
+}
+
+/// Scenes whose ticks depend on much of what was before: encoders, delays, dropped ticks, contact forces,
+/// laws, tools that turn.
+std::vector<Scene> scenes_with_a_past() {
+  std::vector<Scene> scenes;
+  for (const ModelPreset preset : {ModelPreset::paper, ModelPreset::accurate})
+    for (const ForceLaw law : {ForceLaw::paper, ForceLaw::rft, ForceLaw::archimedes})
+      for (const bool dynamic : {false, true})
+        for (const bool blade : {false, true}) {
+          if (blade && preset == ModelPreset::paper) continue;
+          Scene scene = stepped_scene();
+          scene.preset = preset;
+          apply_model_preset(scene);
+          scene.force.law = law;
+          if (blade) {
+            scene.tool.shape = ToolShape::plate;
+            scene.tool.width = 0.04;
+            scene.tool.thickness = 0.01;
+          }
+          if (dynamic) {
+            scene.device.model = DeviceModel::dynamic;
+            scene.device.delay = 3;
+            scene.device.dropped_ticks = 0.1;
+            scene.device.velocity = ReadVelocity::encoders;
+          }
+          scenes.push_back(scene);
+        }
+  return scenes;
+}
+
+/// Plays ticks [begin, end) of a hand.
+std::vector<TickRecord> play(SteppedSimulation& simulation, const Stroke& stroke, int begin, int end) {
+  std::vector<TickRecord> ticks;
+  for (int k = begin; k < end; ++k) {
+    Hand hand;
+    hand.down = true;
+    hand.position = stroke.position[static_cast<std::size_t>(k)];
+    hand.orientation = Eigen::Quaterniond(stroke.orientation[static_cast<std::size_t>(k)]);
+    ticks.push_back(simulation.tick(hand, {.orientation = true}));
+  }
+  return ticks;
+}
+
+void expect_same(const std::vector<TickRecord>& some, const std::vector<TickRecord>& others) {
+  ASSERT_EQ(some.size(), others.size());
+  for (std::size_t k = 0; k < some.size(); ++k) {
+    const TickRecord &one = some[k], &other = others[k];
+    ASSERT_EQ(one.device_force, other.device_force) << k;
+    ASSERT_EQ(one.wrench.torque, other.wrench.torque) << k;
+    ASSERT_EQ(one.device_position, other.device_position) << k;
+    ASSERT_EQ(one.passivity_margin, other.passivity_margin) << k;
+    ASSERT_EQ(one.dropped, other.dropped) << k;
+    ASSERT_EQ(one.displaced_volume, other.displaced_volume) << k;
+    ASSERT_EQ(one.contact, other.contact) << k;
+  }
+}
+
+bool same_sand(const SteppedSimulation& one, const SteppedSimulation& other) {
+  return (one.bed().grid() == other.bed().grid()).all();
+}
+
+TEST(SteppedSimulation, CopiesGoOnWithTheSameBitsInAnyOrderAndThread) {
+  const Stroke stroke = stepped_stroke(0.7, false);
+  std::mt19937 random(3);
+  for (const Scene& scene : scenes_with_a_past()) {
+    const int from = 20 + static_cast<int>(random() % 300), to = from + 60;
+    SteppedSimulation whole(scene, starting_bed(scene.bed));
+    play(whole, stroke, 0, from);
+    const std::vector<TickRecord> expected = play(whole, stroke, from, to);
+
+    SteppedSimulation first(scene, starting_bed(scene.bed));
+    play(first, stroke, 0, from);
+    SteppedSimulation second = first, third = first;
+    // The third goes elsewhere meanwhile, in another thread.
+    std::thread elsewhere([&] { play(third, stroke, to, to + 100); });
+    expect_same(play(second, stroke, from, to), expected);
+    elsewhere.join();
+    expect_same(play(first, stroke, from, to), expected);
+    EXPECT_TRUE(same_sand(first, whole));
+    EXPECT_TRUE(same_sand(second, whole));
+    EXPECT_FALSE(same_sand(third, whole));
+    for (SteppedSimulation* simulation : {&whole, &first, &second}) {
+      simulation->lift();
+      simulation->relax();
+    }
+    EXPECT_TRUE(same_sand(first, whole));
+    EXPECT_TRUE(same_sand(second, whole));
+  }
+}
+
+/// A copy made while sand is still awake, since a relaxation was cut off.
+TEST(SteppedSimulation, ACopyGoesOnWithARelaxationThatWasCutOff) {
+  for (const RelaxationMethod method :
+       {RelaxationMethod::passes, RelaxationMethod::rkl, RelaxationMethod::plain}) {
+    Scene scene = stepped_scene();
+    scene.bed.surface.kind = SurfaceKind::cylinder;
+    scene.bed.surface.radius = 0.04;
+    scene.bed.surface.height = 0.05;
+    scene.relaxation.method = method;
+    scene.relaxation.max_passes = 10;
+    SteppedSimulation one(scene, starting_bed(scene.bed));
+    one.relax();
+    SteppedSimulation other = one;
+    for (int i = 0; i < 3; ++i) {
+      const RelaxationOutcome a = one.relax(), b = other.relax();
+      EXPECT_EQ(a.passes, b.passes);
+      EXPECT_EQ(a.residual, b.residual);
+    }
+    EXPECT_TRUE(same_sand(one, other));
+  }
+}
+
+TEST(SteppedSimulation, CopiesShareTheSandThatNeitherTouched) {
+  Scene scene = stepped_scene();
+  scene.bed.cols = scene.bed.rows = 1280;
+  SteppedSimulation one(scene, HeightField(HeightGrid::Zero(1280, 1280), scene.bed.cell_size()));
+  one.relax();
+  SteppedSimulation other = one;
+  const HeightField &bed = one.bed(), &copy = other.bed();
+  const auto shared = [&] {
+    int count = 0;
+    for (int slot = 0; slot < bed.allocated_tiles(); ++slot)
+      count += bed.tile_heights(slot) == copy.tile_heights(slot);
+    return count;
+  };
+  EXPECT_EQ(shared(), 400);
+  play(other, stepped_stroke(0.1, false), 0, 100);
+  other.relax();
+  EXPECT_LT(shared(), 400);
+  EXPECT_GT(shared(), 340);  // the tool and its furrow are 20 mm wide, a tile 10
 }
 
 }  // namespace

@@ -28,8 +28,28 @@ class Simulation:
                  surface: Array | None = None, laws: Laws | None = None, slips: bool | None = None) -> None:
         if slips is not None:
             relaxes = slips
-        self._stepped = _core._Simulation(with_laws(Scene(scene, settings)._here, laws), relaxes, surface)
-        self.tick = self._stepped.tick
+        self._take(_core._Simulation(with_laws(Scene(scene, settings)._here, laws), relaxes, surface))
+
+    def _take(self, stepped: Any) -> None:
+        self._stepped = stepped
+        self.tick = stepped.tick
+
+    def copy(self) -> Simulation:
+        """Returns a copy that goes on by itself, with the same bits: to try something and come back.
+
+        Copies share the sand that none of them changed, so a copy costs what differs. Not with laws of your own.
+        """
+        copy = type(self).__new__(type(self))
+        copy.__dict__.update(self.__dict__)
+        copy._take(self._stepped.copy())
+        return copy
+
+    def __copy__(self) -> Simulation:
+        return self.copy()
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Simulation:
+        memo[id(self)] = copied = self.copy()
+        return copied
 
     def tick(self, position: Array, velocity: Array | None = None, *, down: bool = True,
              orientation: Array | None = None) -> Tick:

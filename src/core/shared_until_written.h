@@ -1,0 +1,32 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <utility>
+
+namespace sandstroke {
+
+/// An object that copies share until one of them writes. Copies may be used in different threads.
+template <class T>
+class SharedUntilWritten {
+ public:
+  template <class... Arguments>
+  explicit SharedUntilWritten(std::in_place_t /*tag*/, Arguments&&... arguments)
+      : object_(std::make_shared<T>(std::forward<Arguments>(arguments)...)) {}
+
+  const T& operator*() const { return *object_; }
+  const T* operator->() const { return object_.get(); }
+  /// The object for this copy alone.
+  T& write() {
+    if (object_.use_count() != 1)
+      object_ = std::make_shared<T>(*object_);
+    else
+      std::atomic_thread_fence(std::memory_order_acquire);  // after what the last sharer read
+    return *object_;
+  }
+
+ private:
+  std::shared_ptr<T> object_;
+};
+
+}  // namespace sandstroke
