@@ -61,13 +61,13 @@ template <bool by_cell>
 struct IsotropicFactors {
   V T, limit, surely_at_rest, share, one;
   const TilePatch* weights;
-  explicit IsotropicFactors(const TalusLaw& law, const TilePatch* weights = nullptr)
+  explicit IsotropicFactors(const TalusLaw& law, const TilePatch* slope_weights = nullptr)
       : T(all(law.axis_drop)),
         limit(all(law.axis_limit)),
         surely_at_rest(all(law.axis_limit * law.axis_limit * (1.0 - 1e-14))),
         share(all(law.share)),
         one(all(1.0)),
-        weights(weights) {}
+        weights(slope_weights) {}
 
   template <class Sand>
   HWY_INLINE unsigned operator()(const double* heights, int row, int c, double* factors, Mask may_give,

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "rules/talus.h"
-#include "sand/height_field.h"
+#include "sand/relaxation.h"
 
 namespace sandstroke {
 
