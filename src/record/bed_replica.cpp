@@ -11,8 +11,11 @@ HeightField with_all_tiles(HeightField bed) {
 }  // namespace
 
 BedReplica::BedReplica(const HeightField& bed) : bed_(with_all_tiles(bed)), known_(bed_) {
-  // Gives the list of disturbed tiles its memory.
-  for (int slot = 0; slot < bed_.allocated_tiles(); ++slot) bed_.mark_disturbed(slot, 0, 0);
+  // Gives the list of disturbed tiles its memory, and both beds tiles of their own.
+  for (int slot = 0; slot < bed_.allocated_tiles(); ++slot) {
+    bed_.mark_disturbed(slot, 0, 0);
+    known_.mark_changed(slot);
+  }
   bed_.clear_disturbed();
   for (int slot = 0; slot < bed_.allocated_tiles(); ++slot)
     told_revisions_.push_back(bed_.tile_revision(bed_.tile_of(slot)));

@@ -19,6 +19,10 @@ ActiveSand::ActiveSand(const TalusLaw& law, double tolerance, double cell_size, 
       activity_(givers) {}
 
 void ActiveSand::begin(HeightField& bed) {
+  if (joined_ > 0) {  // an exception ended the last relaxation
+    std::fill(numbers_.begin(), numbers_.end(), -1);
+    joined_ = 0;
+  }
   cells_visited_ = 0;
   tiles_active_max_ = 0;
   wake_ups_before_ = activity_.wake_ups();

@@ -86,7 +86,7 @@ class SandBefore {
   std::vector<bool> enclosed_;            // no sand gets there: a cup's inside
   double reach_ = 0.0;                    // m, of the sides from the tip's axis
   double slope_since_ = 0.0;              // m, that the tip went since it looked at the slope
-  Eigen::Vector2d slope_seen_, slope_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d slope_seen_ = Eigen::Vector2d::Zero(), slope_ = Eigen::Vector2d::Zero();
   Mean mean_;
   /// m: the sides' mean in the last tick, if there was one.
   double level_ = -std::numeric_limits<double>::infinity();

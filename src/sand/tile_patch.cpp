@@ -45,8 +45,10 @@ void TilePatch::load_whole(const HeightField& bed, int slot) {
 void TilePatch::write_back(HeightField& bed, const CellFlags& cells) const {
   bool changed = false;
   for (int row = loaded_.begin; row < loaded_.end; ++row) {
+    std::uint64_t flags = cells[row] & ~bed.walls(slot_)[row];
+    if (!flags) continue;  // a shared tile stays shared
     double* out = bed.tile_heights(slot_) + row * side;
-    for (std::uint64_t flags = cells[row] & ~bed.walls(slot_)[row]; flags; flags &= flags - 1) {
+    for (; flags; flags &= flags - 1) {
       const int col = std::countr_zero(flags);
       changed |= out[col] != heights(row)[col];
       out[col] = heights(row)[col];

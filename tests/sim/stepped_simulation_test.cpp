@@ -255,5 +255,28 @@ TEST(SteppedSimulation, CopiesShareTheSandThatNeitherTouched) {
   EXPECT_GT(shared(), 340);  // the tool and its furrow are 20 mm wide, a tile 10
 }
 
+/// A relaxation that an exception ends, as Ctrl-C does from Python.
+TEST(SteppedSimulation, GoesOnAfterAnExceptionFromItsWatcher) {
+  struct Stop {};
+  for (const RelaxationMethod method : {RelaxationMethod::passes, RelaxationMethod::rkl}) {
+    Scene scene = stepped_scene();
+    scene.bed.surface.kind = SurfaceKind::cylinder;
+    scene.bed.surface.radius = 0.04;
+    scene.bed.surface.height = 0.05;
+    scene.relaxation.method = method;
+    SteppedSimulation one(scene, starting_bed(scene.bed));
+    EXPECT_THROW(one.relax([](std::int64_t passes, const BedNow&) {
+      if (passes == 5) throw Stop();
+    }),
+                 Stop);
+    SteppedSimulation other = one;
+    for (SteppedSimulation* simulation : {&one, &other}) {
+      const RelaxationOutcome outcome = simulation->relax();
+      EXPECT_TRUE(outcome.converged);
+      EXPECT_NEAR(simulation->bed().volume(), starting_bed(scene.bed).volume(), 1e-18);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sandstroke
