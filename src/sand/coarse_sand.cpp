@@ -14,7 +14,7 @@ namespace {
 
 constexpr int row_length = BedGeometry::tile_side, half = row_length / 2;
 
-// Found on piles, slopes and hills (tests/bench/piles.cpp).
+// Found on piles, slopes and hills (tests/bench/levels.cpp).
 constexpr double first_factor = 1.1;
 /// How far a cell's talus slope may differ from the law's.
 constexpr double widest = 0.1;
@@ -104,7 +104,6 @@ CoarseSand::CoarseSand(const HeightField& fine, const RelaxationSettings& settin
                      std::make_shared<LevelRule>(first ? first_factor : 1.0)),
       start_(bed_) {
   take_tiles(fine, awake);
-  mark_walls(fine);
   start_ = bed_;
   allow_slopes(fine, settings, fine_factors, first);
 }
@@ -117,40 +116,18 @@ void CoarseSand::take_tiles(const HeightField& fine, const std::vector<int>& awa
     const int tile = bed_.tile_index(row, col);
     const int slot = bed_.allocate(tile);
     for (int r = 0; r < row_length; ++r) bed_.mark_disturbed(slot, r, ~std::uint64_t{0});
-    // Sand may flow on to the tiles beside: there, too, it must know how steep it may be.
     bed_.allocate_around(tile);
   }
-}
-
-void CoarseSand::mark_walls(const HeightField& fine) {
-  std::vector<RowCells> walls;
-  const auto mark = [&](int tile) {
-    visit_fine_tiles(bed_, fine, tile, [&](int fine_tile, int first_row, int first_col) {
-      const int rows =
-          std::min(fine.tile_cells(fine_tile).rows() / 2, bed_.tile_cells(tile).rows() - first_row);
-      for (int row = 0; row < rows; ++row) {
-        const std::uint64_t fine_walls =
-            fine.walls_in_row(fine_tile, 2 * row) | fine.walls_in_row(fine_tile, 2 * row + 1);
-        if (!fine_walls) continue;
-        std::uint64_t cells = 0;
-        for (int col = 0; col < half; ++col)
-          cells |= static_cast<std::uint64_t>((fine_walls >> (2 * col) & 3) != 0) << (first_col + col);
-        walls.push_back({bed_.allocate(tile), first_row + row, cells});
-      }
-    });
-  };
-  if (fine.shape() == BedShape::rectangle)
-    for (int slot = bed_.allocated_tiles(); slot-- > 0;) mark(bed_.tile_of(slot));
-  else
-    for (int tile = 0; tile < bed_.tile_count(); ++tile) mark(tile);
-  bed_.set_tool_walls(walls);
+  // Sand may flow on to the tiles beside: there, too, it must know how steep it may be, and what lies beyond.
+  known_tiles_ = bed_.allocated_tiles();
+  for (int slot = 0; slot < known_tiles_; ++slot) bed_.allocate_around(bed_.tile_of(slot));
 }
 
 void CoarseSand::allow_slopes(const HeightField& fine, const RelaxationSettings& settings,
                               const HeightField* fine_factors, bool first) {
   const TalusLaw fine_law = talus_law(settings, fine.cell_size());
   const TalusLaw law = talus_law(on_coarse_bed(settings), bed_.cell_size());
-  const std::size_t tiles = bed_.allocated_tiles();
+  const auto tiles = static_cast<std::size_t>(known_tiles_);
   for (std::size_t slot = 0; slot < tiles; ++slot)
     talus_factors_.allocate(bed_.tile_of(static_cast<int>(slot)));
   std::atomic<bool> flows = false;

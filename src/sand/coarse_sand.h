@@ -15,7 +15,7 @@ RelaxationSettings on_coarse_bed(const RelaxationSettings& settings);
 /// cells have a talus slope each, by which it rests exactly where the fine bed would: tan(talus) and what the
 /// coarse slope says otherwise than the mean of the fine ones. What changes on it is brought back.
 ///
-/// Odd last rows and columns, and cells with a wall in them, take no part.
+/// The fine bed must have no walls. Odd last rows and columns take no part.
 class CoarseSand {
  public:
   /// settings: of the fine bed. awake: slots of its tiles whose sand moves; all other sand rests.
@@ -39,11 +39,11 @@ class CoarseSand {
 
  private:
   void take_tiles(const HeightField& fine, const std::vector<int>& awake);
-  void mark_walls(const HeightField& fine);
   void allow_slopes(const HeightField& fine, const RelaxationSettings& settings,
                     const HeightField* fine_factors, bool first);
 
   HeightField bed_, talus_factors_, start_;
+  int known_tiles_ = 0;  // the first ones of bed_: their talus slopes are known
   bool flows_ = false;
 };
 

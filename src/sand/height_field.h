@@ -108,11 +108,6 @@ class HeightField : public BedGeometry {
   const std::vector<RowCells>& tool_walls() const { return tool_walls_; }
   /// All walls in a tile.
   const CellFlags& walls(int slot) const { return tiles_[slot]->walls; }
-  /// The walls in a row of a tile (by index), allocated or not.
-  std::uint64_t walls_in_row(int tile, int row_in_tile) const {
-    const int slot = slot_of(tile);
-    return slot < 0 ? beyond_wall(tile, row_in_tile) : walls(slot)[row_in_tile];
-  }
   bool is_wall(int row, int col) const {
     const int slot = slot_of(tile_index(row / tile_side, col / tile_side));
     return slot < 0 ? !has_sand(row, col) : (walls(slot)[row % tile_side] >> (col % tile_side) & 1) != 0;

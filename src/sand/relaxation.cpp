@@ -38,8 +38,12 @@ std::size_t bytes_per_relaxed_tile(const RelaxationSettings& settings) {
   // plain: the old heights and the new ones, and the rule's own two fields.
   if (settings.method == RelaxationMethod::plain)
     return HeightField::bytes_per_tile() + 4 * sizeof(double) * BedGeometry::tile_area;
-  return HeightField::bytes_per_tile() + ActiveSand::bytes_per_tile() +
-         (takes_super_steps(settings.method) ? rkl_bytes_per_tile() : 0);
+  const std::size_t relaxed = HeightField::bytes_per_tile() + ActiveSand::bytes_per_tile() +
+                              (takes_super_steps(settings.method) ? rkl_bytes_per_tile() : 0);
+  // multilevel: on each coarser bed a quarter of the tiles, with four beds and the talus slopes.
+  if (settings.method == RelaxationMethod::multilevel)
+    return relaxed + (relaxed + 3 * HeightField::bytes_per_tile() + sizeof(PatchHeights)) / 3;
+  return relaxed;
 }
 
 std::unique_ptr<Relaxer> make_relaxer(const RelaxationSettings& settings, double cell_size) {

@@ -14,7 +14,8 @@ inline constexpr const char* relaxation_law_names[] = {"paper", "isotropic", "fa
 /// passes: Jacobi passes of the law over the sand that can move. rkl: super time steps, which reach the rest
 /// of many small steps of the law in far fewer passes (relaxation_rkl.cpp). plain: talus_pass over all cells;
 /// slow, with the same bits as `passes`. Start there to write a law of your own. multilevel: rkl, helped by
-/// coarser beds where sand must move far (relaxation_multilevel.cpp); isotropic and faces only.
+/// coarser beds where sand must move far (relaxation_multilevel.cpp); isotropic and faces only, and rkl alone
+/// on beds with walls.
 enum class RelaxationMethod { passes, rkl, multilevel, plain };
 inline constexpr const char* relaxation_method_names[] = {"passes", "rkl", "multilevel", "plain"};
 /// Whether a method takes super-steps.
@@ -34,7 +35,7 @@ struct RelaxationSettings {
   double way = 0.0;         ///< tool radii that the tool moves in sand between relaxations; 0 = none by way
   double way_at_rim = 0.0;  ///< tool radii: the same with R/5 of sand or more above its rim; 0 = as `way`
   double share = 0.0;       ///< c: 0 = the law's default (paper 1/2; isotropic 1/4, its limit; faces 1/4)
-  std::int64_t max_passes = 1'000'000;  ///< per relaxation
+  std::int64_t max_passes = 1'000'000;  ///< per relaxation; of the bed itself, not of coarser ones
 };
 
 /// c of the settings, or the law's default.
@@ -75,7 +76,8 @@ class Relaxer {
   /// A copy that goes on with a copy of the bed; none: it cannot be copied.
   virtual std::unique_ptr<Relaxer> copy() const { return nullptr; }
   /// Stops at equilibrium, after max_passes (those that changed something, rejected ones included), or when
-  /// interrupted(). Meanwhile the bed keeps its old heights, unless after_pass asks for it.
+  /// interrupted(). Meanwhile the bed keeps its old heights, unless after_pass asks for it (or coarser beds
+  /// help: multilevel).
   virtual RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass = {}) = 0;
 };
 

@@ -12,10 +12,9 @@ namespace {
 // sand elsewhere, with 128 2.2 %, with 256 1.4 to 1.9 % (512^2; `rkl` 0.1 %; piles 0.1 %). Few passes on the
 // coarse beds at a time would bring it below 0.3 %, and cost more than `rkl` does.
 constexpr std::int64_t first_passes = 256, first_coarse_passes = 128, passes_between = 32;
-/// More gain nothing, and in a channel along a wall they cost.
+/// More gain nothing.
 constexpr int most_corrections = 4;
-/// Passes on a coarse bed at a time. Sand that rests later there, as in a channel along a wall, is brought
-/// back as far as it came.
+/// Passes on a coarse bed at a time. Sand that rests later there is brought back as far as it came.
 constexpr std::int64_t most_coarse_passes = 1024;
 /// Fewer awake cells than these are not helped: those of a stroke on 4000^2 took twice as long with
 /// corrections.
@@ -54,14 +53,21 @@ class MultilevelRelaxer : public Relaxer {
       outcome.add(stepper_->relax_part(bed, progress, {passes, least_awake, settings_.max_passes - before},
                                        after_pass ? watcher : PassWatcher{}));
     };
-    const bool has_coarse = std::min(bed.rows(), bed.cols()) >= least_cells;
+    // A coarse cell cannot be half a wall.
+    const bool has_walls = bed.shape() != BedShape::rectangle || !bed.tool_walls().empty();
+    const bool has_coarse = !has_walls && std::min(bed.rows(), bed.cols()) >= least_cells;
     const bool is_coarse = talus_factors_ != nullptr;
     take(!has_coarse ? settings_.max_passes : is_coarse ? first_coarse_passes : first_passes);
+    bool far_from_rest = true;
     for (int corrections = 0; !outcome.converged && outcome.passes < settings_.max_passes && !interrupted();
          ++corrections) {
-      const bool corrected =
-          corrections < most_corrections && correct(bed, corrections == 0, progress.travelled, outcome);
-      progress.part_of_share = share_after;
+      bool corrected = false;
+      if (corrections < most_corrections) {
+        corrected = correct(bed, far_from_rest, progress.travelled, outcome);
+        if (!corrected && far_from_rest) corrected = correct(bed, false, progress.travelled, outcome);
+        far_from_rest = false;
+      }
+      if (corrected) progress.part_of_share = share_after;
       take(corrected ? passes_between : settings_.max_passes);
     }
     return outcome;

@@ -130,9 +130,10 @@ void describe_relaxation(KeyVisitor& v, RelaxationSettings& r) {
   choose(v, "law", r.law, {std::begin(relaxation_law_names), std::end(relaxation_law_names)},
          "8 neighbours as published; the same talus slope in every direction; or that slope between each two "
          "cells");
-  choose(v, "method", r.method, {std::begin(relaxation_method_names), std::end(relaxation_method_names)},
-         "passes; super time steps, which are far fewer; the rule cell by cell, which is slow; or super time "
-         "steps helped by coarser beds, for large piles");
+  choose(
+      v, "method", r.method, {std::begin(relaxation_method_names), std::end(relaxation_method_names)},
+      "passes; super time steps, which are far fewer; those helped by coarser beds, for large piles; or the "
+      "rule cell by cell, which is slow");
   if (takes_super_steps(r.method))
     v.number("step_tolerance", r.step_tolerance, {1e-6, 10.0, false}, "",
              "error of a super step, as a fraction of the distance that sand has moved");

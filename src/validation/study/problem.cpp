@@ -39,7 +39,7 @@ RunSettings settings_of(const RelaxationSettings& relaxation, const BedGeometry&
   settings.cells = bed.cols();
   settings.cell_size = bed.cell_size();
   settings.tolerance = relaxation.tolerance;
-  if (relaxation.method == RelaxationMethod::rkl) settings.step_tolerance = relaxation.step_tolerance;
+  if (takes_super_steps(relaxation.method)) settings.step_tolerance = relaxation.step_tolerance;
   settings.share = flow_share(relaxation);
   settings.threads = threads;
   return settings;
