@@ -12,7 +12,6 @@ namespace sandstroke {
 template <class T>
 class Copied {
  public:
-  Copied() = default;
   template <class Derived>
   Copied(std::unique_ptr<Derived> object) : object_(std::move(object)) {}  // NOLINT: as a unique_ptr does
   Copied(const Copied& other) : object_(other.object_ ? other.object_->copy() : nullptr) {

@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <memory>
-#include <utility>
 
 namespace sandstroke {
 
@@ -10,10 +9,6 @@ namespace sandstroke {
 template <class T>
 class SharedUntilWritten {
  public:
-  template <class... Arguments>
-  explicit SharedUntilWritten(std::in_place_t /*tag*/, Arguments&&... arguments)
-      : object_(std::make_shared<T>(std::forward<Arguments>(arguments)...)) {}
-
   const T& operator*() const { return *object_; }
   const T* operator->() const { return object_.get(); }
   /// The object for this copy alone.
@@ -26,7 +21,7 @@ class SharedUntilWritten {
   }
 
  private:
-  std::shared_ptr<T> object_;
+  std::shared_ptr<T> object_ = std::make_shared<T>();
 };
 
 }  // namespace sandstroke

@@ -33,8 +33,14 @@ void ActiveSand::begin(HeightField& bed) {
 void ActiveSand::know_slots(int count) {
   if (numbers_.size() >= static_cast<std::size_t>(count)) return;
   numbers_.resize(count, -1);
-  while (group_residuals_.size() < numbers_.size()) group_residuals_.emplace_back(std::in_place);
+  while (group_residuals_.size() < numbers_.size()) group_residuals_.emplace_back();
   residuals_.resize(group_residuals_.size());
+}
+
+void ActiveSand::measure_residuals(const TilePatch& patch, const CellFlags& cells) {
+  Residuals& groups = group_residuals_[patch.slot()].write();
+  compute_residuals(law_, patch, cells, groups.data());
+  residuals_[patch.slot()] = std::max(0.0, *std::max_element(groups.begin(), groups.end()));
 }
 
 void ActiveSand::wake_too_steep(HeightField& bed) {
@@ -50,9 +56,7 @@ void ActiveSand::wake_too_steep(HeightField& bed) {
     const CellRange inside = bed.tile_cells(bed.tile_of(slot));
     CellFlags cells{};
     std::fill_n(cells.begin(), inside.rows(), columns_between(0, inside.cols()));
-    Residuals& residuals = group_residuals_[slot].write();
-    compute_residuals(law_, patch, cells, residuals.data());
-    residuals_[slot] = std::max(0.0, *std::max_element(residuals.begin(), residuals.end()));
+    measure_residuals(patch, cells);
   });
   // A little less, since laws do not compare slopes as fractions.
   const double limit = tolerance_ - 1e-12;
@@ -147,9 +151,7 @@ void ActiveSand::end(HeightField& bed, RelaxationOutcome& outcome) {
     const RowSpan around{rows.begin - TilePatch::rim, rows.end + TilePatch::rim};
     patch.load_rows(bed, around);
     patch.load_rim(bed, around, true, true, [](int) { return nullptr; });
-    Residuals& residuals = group_residuals_[patch.slot()].write();
-    compute_residuals(law_, patch, seen, residuals.data());
-    residuals_[patch.slot()] = std::max(0.0, *std::max_element(residuals.begin(), residuals.end()));
+    measure_residuals(patch, seen);
   });
   for (std::size_t i = 0; i < joined_; ++i) {
     numbers_[tiles_[i]->patch.slot()] = -1;

@@ -109,6 +109,7 @@ class ActiveSand {
     parallel_for(tiles().size(), work_ >= worth_threads_, [&](std::size_t i) { body(tiles()[i]); });
   }
   void know_slots(int count);
+  void measure_residuals(const TilePatch& patch, const CellFlags& cells);
   void wake_too_steep(HeightField& bed);
   void take_part(const HeightField& bed, int slot);
   void load_slope_weights(int tile, std::unique_ptr<TilePatch>& weights);

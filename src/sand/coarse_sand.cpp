@@ -101,10 +101,8 @@ CoarseSand::CoarseSand(const HeightField& fine, const RelaxationSettings& settin
                        const std::vector<int>& awake, const HeightField* fine_factors, bool first)
     : bed_(fine.rows() / 2, fine.cols() / 2, 2.0 * fine.cell_size(), std::make_shared<MeansRule>(fine)),
       talus_factors_(bed_.rows(), bed_.cols(), bed_.cell_size(),
-                     std::make_shared<LevelRule>(first ? first_factor : 1.0)),
-      start_(bed_) {
+                     std::make_shared<LevelRule>(first ? first_factor : 1.0)) {
   take_tiles(fine, awake);
-  start_ = bed_;
   allow_slopes(fine, settings, fine_factors, first);
 }
 
@@ -174,9 +172,9 @@ void CoarseSand::bring_back(HeightField& fine) const {
     const int tile = bed_.tile_of(slot);
     double* out = change.tile_heights(change.allocate(tile));
     std::array<double, BedGeometry::tile_area> before;
-    start_.read_tile(tile, before.data());
-    bool changed = false;
     const CellRange cells = bed_.tile_cells(tile);
+    bed_.untouched().fill(bed_, cells, before.data(), row_length);
+    bool changed = false;
     for (int row = 0; row < cells.rows(); ++row)
       for (int col = 0; col < cells.cols(); ++col) {
         const int at = row * row_length + col;
@@ -200,7 +198,7 @@ void CoarseSand::bring_back(HeightField& fine) const {
           double* out = fine.tile_heights(fine.slot_of(tile));
           visit_cells(fine, tile, first_row, first_col, [&](int row, int col) {
             const double here = patch.heights(row)[col];
-            if (!(here != 0.0) || std::isnan(here)) return;
+            if (here == 0.0) return;
             // What a fine cell takes of the difference to a neighbour, its mirror image there gives.
             const auto beside = [&](int row_step, int col_step) {
               const double there = patch.heights(row + row_step)[col + col_step];

@@ -34,7 +34,7 @@ class CoarseSand {
 
   /// Adds to the fine heights what changed on the coarse bed since construction, and marks them as disturbed.
   /// Changes are interpolated between coarse cells that changed, so that volume is kept, and a toe gets no
-  /// slivers before it. `fine` is the constructor's.
+  /// slivers before it. `fine` is the constructor's, as it was.
   void bring_back(HeightField& fine) const;
 
  private:
@@ -42,7 +42,7 @@ class CoarseSand {
   void allow_slopes(const HeightField& fine, const RelaxationSettings& settings,
                     const HeightField* fine_factors, bool first);
 
-  HeightField bed_, talus_factors_, start_;
+  HeightField bed_, talus_factors_;
   int known_tiles_ = 0;  // the first ones of bed_: their talus slopes are known
   bool flows_ = false;
 };

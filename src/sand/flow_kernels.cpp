@@ -231,5 +231,6 @@ void compute_flow(const TalusLaw& law, const TilePatch& patch, const CellFlags& 
 void apply_flow(const TileFlow& flow, TilePatch& patch, CellFlags& changed) {
   HWY_DYNAMIC_DISPATCH(ApplyFlow)(flow, patch, changed);
 }
+
 }  // namespace sandstroke
 #endif

@@ -72,7 +72,7 @@ HeightField HeightField::untouched_bed() const {
 }
 
 int HeightField::make_tile(int tile) {
-  Tile& made = tiles_.emplace_back(std::in_place).write();  // zeros, outside the bed too
+  Tile& made = tiles_.emplace_back().write();  // zeros, outside the bed too
   made.index = tile;
   made.revision = new_tile_revision;
   untouched_->fill(*this, tile_cells(tile), made.heights.data(), tile_side);

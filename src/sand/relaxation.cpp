@@ -40,9 +40,10 @@ std::size_t bytes_per_relaxed_tile(const RelaxationSettings& settings) {
     return HeightField::bytes_per_tile() + 4 * sizeof(double) * BedGeometry::tile_area;
   const std::size_t relaxed = HeightField::bytes_per_tile() + ActiveSand::bytes_per_tile() +
                               (takes_super_steps(settings.method) ? rkl_bytes_per_tile() : 0);
-  // multilevel: on each coarser bed a quarter of the tiles, with four beds and the talus slopes.
+  // multilevel: on each coarser bed a quarter of the tiles, each with its talus slopes, what they make of
+  // |g|^2, and what changed.
   if (settings.method == RelaxationMethod::multilevel)
-    return relaxed + (relaxed + 3 * HeightField::bytes_per_tile() + sizeof(PatchHeights)) / 3;
+    return relaxed + (relaxed + 2 * HeightField::bytes_per_tile() + sizeof(PatchHeights)) / 3;
   return relaxed;
 }
 

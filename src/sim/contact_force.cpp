@@ -85,13 +85,13 @@ class ElasticForce : public ToolForce {
 
 class RftForce : public ElasticForce {
  public:
-  std::unique_ptr<ToolForce> copy() const override { return std::make_unique<RftForce>(*this); }
   RftForce(const Scene& scene, double cell_size)
       : ElasticForce(scene),
         sand_(scene.strength),
         resistive_(tool_surface(scene.tool), cell_size, scene.relaxation.talus_angle) {
     ElasticForce::turn(own_rotation(scene.tool));
   }
+  std::unique_ptr<ToolForce> copy() const override { return std::make_unique<RftForce>(*this); }
 
   void lift() override {
     ElasticForce::lift();
@@ -111,12 +111,12 @@ class RftForce : public ElasticForce {
 /// It goes by the plane of the sand around the tool.
 class ArchimedesForce : public ElasticForce {
  public:
-  std::unique_ptr<ToolForce> copy() const override { return std::make_unique<ArchimedesForce>(*this); }
   ArchimedesForce(const Scene& scene, double cell_size)
       : ElasticForce(scene), sand_(scene.strength), elements_(tool_surface(scene.tool), cell_size) {
     if (scene.tool.shape == ToolShape::sphere) sphere_radius_ = scene.tool.radius;
     ElasticForce::turn(own_rotation(scene.tool));
   }
+  std::unique_ptr<ToolForce> copy() const override { return std::make_unique<ArchimedesForce>(*this); }
 
   void lift() override {
     ElasticForce::lift();

@@ -24,8 +24,8 @@ double two_cylinders(double x, double y) {
          cylinder(x, y, 0.62, 0.58, 30.0 / 512, 90.0 / 512);
 }
 double l_block(double x, double y) {
-  const bool upright =
-      x > 0.3 && x < 0.45 && y > 0.3 && y<0.7, foot = x> 0.3 && x < 0.7 && y > 0.3 && y < 0.42;
+  const bool upright = x > 0.3 && x < 0.45 && y > 0.3 && y < 0.7;
+  const bool foot = x > 0.3 && x < 0.7 && y > 0.3 && y < 0.42;
   return upright || foot ? 60.0 / 512 : 0.0;
 }
 double wavy_slope(double x, double y) {

@@ -35,6 +35,10 @@ HeightField cylinder(int rows, int cols, BedShape shape = BedShape::rectangle) {
   return make_surface(pile, rows, cols, 1.0, shape);
 }
 
+RelaxationOutcome relax(HeightField& bed, RelaxationMethod method, RelaxationLaw law) {
+  return make_relaxer(settings_of(method, law), 1.0)->relax(bed);
+}
+
 double share_elsewhere(const HeightField& bed, const HeightField& other, const HeightField& start) {
   return (bed.grid() - other.grid()).abs().sum() / (other.grid() - start.grid()).abs().sum();
 }
@@ -47,10 +51,8 @@ TEST_P(MultilevelLaws, BringAPileToRestWhereRklDoesInFewerPasses) {
   const int n = sanitized ? 512 : 1024;
   const HeightField start = cylinder(n, n);
   HeightField bed = start, by_rkl = start;
-  const RelaxationOutcome outcome =
-      make_relaxer(settings_of(RelaxationMethod::multilevel, GetParam()), 1.0)->relax(bed);
-  const RelaxationOutcome of_rkl =
-      make_relaxer(settings_of(RelaxationMethod::rkl, GetParam()), 1.0)->relax(by_rkl);
+  const RelaxationOutcome outcome = relax(bed, RelaxationMethod::multilevel, GetParam());
+  const RelaxationOutcome of_rkl = relax(by_rkl, RelaxationMethod::rkl, GetParam());
   EXPECT_TRUE(outcome.converged);
   EXPECT_LE(outcome.residual, 1e-3);
   EXPECT_LT(share_elsewhere(bed, by_rkl, start), 0.003);
@@ -62,16 +64,14 @@ TEST_P(MultilevelLaws, BringAPileToRestWhereRklDoesInFewerPasses) {
 
 TEST_P(MultilevelLaws, KeepSymmetryToTheBit) {
   HeightField bed = cylinder(512, 512);
-  make_relaxer(settings_of(RelaxationMethod::multilevel, GetParam()), 1.0)->relax(bed);
+  relax(bed, RelaxationMethod::multilevel, GetParam());
   EXPECT_TRUE(has_square_symmetry(bed.grid()));
 }
 
 TEST_P(MultilevelLaws, HaveTheBitsOfRklWhereItRestsSoon) {
   HeightField bed = cylinder(150, 150), by_rkl = bed;
-  const RelaxationOutcome outcome =
-      make_relaxer(settings_of(RelaxationMethod::multilevel, GetParam()), 1.0)->relax(bed);
-  EXPECT_EQ(outcome.passes,
-            make_relaxer(settings_of(RelaxationMethod::rkl, GetParam()), 1.0)->relax(by_rkl).passes);
+  const RelaxationOutcome outcome = relax(bed, RelaxationMethod::multilevel, GetParam());
+  EXPECT_EQ(outcome.passes, relax(by_rkl, RelaxationMethod::rkl, GetParam()).passes);
   EXPECT_TRUE((bed.grid() == by_rkl.grid()).all());
 }
 
@@ -82,22 +82,19 @@ TEST_P(MultilevelLaws, HaveTheBitsOfRklWhereLittleSandMoves) {
   for (int col = 0; col < 600; ++col) slope.col(col) = -0.97 * std::tan(std::numbers::pi / 6.0) * col;
   slope.block(70, 5, 10, 10) += 12.0;
   HeightField bed(slope, 1.0), by_rkl = bed;
-  const RelaxationOutcome outcome =
-      make_relaxer(settings_of(RelaxationMethod::multilevel, GetParam()), 1.0)->relax(bed);
+  const RelaxationOutcome outcome = relax(bed, RelaxationMethod::multilevel, GetParam());
   EXPECT_GT(outcome.passes, 256);
-  make_relaxer(settings_of(RelaxationMethod::rkl, GetParam()), 1.0)->relax(by_rkl);
+  relax(by_rkl, RelaxationMethod::rkl, GetParam());
   EXPECT_TRUE((bed.grid() == by_rkl.grid()).all());
 }
 
 TEST_P(MultilevelLaws, LoseNothingAtOddEdges) {
   const HeightField start = cylinder(515, 577);
   HeightField bed = start, by_rkl = start;
-  const RelaxationOutcome outcome =
-      make_relaxer(settings_of(RelaxationMethod::multilevel, GetParam()), 1.0)->relax(bed);
+  const RelaxationOutcome outcome = relax(bed, RelaxationMethod::multilevel, GetParam());
   EXPECT_TRUE(outcome.converged);
   EXPECT_NEAR(bed.volume(), start.volume(), 1e-15 * outcome.moved_volume);
-  const RelaxationOutcome of_rkl =
-      make_relaxer(settings_of(RelaxationMethod::rkl, GetParam()), 1.0)->relax(by_rkl);
+  const RelaxationOutcome of_rkl = relax(by_rkl, RelaxationMethod::rkl, GetParam());
   EXPECT_NE(outcome.passes, of_rkl.passes);  // something was corrected
   EXPECT_LT(share_elsewhere(bed, by_rkl, start), 0.003);
 }
@@ -108,10 +105,9 @@ TEST_P(MultilevelLaws, HaveTheBitsOfRklOnBedsWithWalls) {
     HeightField bed = cylinder(512, 512, shape);
     if (shape == BedShape::rectangle) bed.set_tool_walls({{bed.allocate(bed.tile_index(4, 6)), 20, 0xff00}});
     HeightField by_rkl = bed;
-    const RelaxationOutcome outcome =
-        make_relaxer(settings_of(RelaxationMethod::multilevel, GetParam()), 1.0)->relax(bed);
+    const RelaxationOutcome outcome = relax(bed, RelaxationMethod::multilevel, GetParam());
     EXPECT_GT(outcome.passes, 256);
-    make_relaxer(settings_of(RelaxationMethod::rkl, GetParam()), 1.0)->relax(by_rkl);
+    relax(by_rkl, RelaxationMethod::rkl, GetParam());
     EXPECT_TRUE((bed.grid() == by_rkl.grid()).all());
   }
 }
@@ -125,10 +121,8 @@ TEST_P(MultilevelLaws, HelpSandThatIsNearRest) {
   cone.height = 1.08 * 210.0 * std::tan(std::numbers::pi / 6.0);
   const HeightField start = make_surface(cone, 512, 512, 1.0);
   HeightField bed = start, by_rkl = start;
-  const RelaxationOutcome outcome =
-      make_relaxer(settings_of(RelaxationMethod::multilevel, GetParam()), 1.0)->relax(bed);
-  const RelaxationOutcome of_rkl =
-      make_relaxer(settings_of(RelaxationMethod::rkl, GetParam()), 1.0)->relax(by_rkl);
+  const RelaxationOutcome outcome = relax(bed, RelaxationMethod::multilevel, GetParam());
+  const RelaxationOutcome of_rkl = relax(by_rkl, RelaxationMethod::rkl, GetParam());
   EXPECT_TRUE(outcome.converged);
   EXPECT_LT(outcome.passes, of_rkl.passes);
   EXPECT_NEAR(bed.volume(), start.volume(), 1e-14 * start.volume());
@@ -157,7 +151,7 @@ TEST(Multilevel, HasTheSameBitsForAnyThreadsAndInstructionSet) {
       const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 8);
       tbb::task_arena(threads).execute([&] {
         HeightField bed = cylinder(512, 520);
-        make_relaxer(settings_of(RelaxationMethod::multilevel, RelaxationLaw::faces), 1.0)->relax(bed);
+        relax(bed, RelaxationMethod::multilevel, RelaxationLaw::faces);
         beds.push_back(bed.grid());
       });
       hwy::SetSupportedTargetsForTest(0);

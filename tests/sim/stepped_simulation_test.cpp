@@ -213,14 +213,19 @@ TEST(SteppedSimulation, CopiesGoOnWithTheSameBitsInAnyOrderAndThread) {
   }
 }
 
+Scene scene_of_a_pile() {
+  Scene scene = stepped_scene();
+  scene.bed.surface.kind = SurfaceKind::cylinder;
+  scene.bed.surface.radius = 0.04;
+  scene.bed.surface.height = 0.05;
+  return scene;
+}
+
 /// A copy made while sand is still awake, since a relaxation was cut off.
 TEST(SteppedSimulation, ACopyGoesOnWithARelaxationThatWasCutOff) {
   for (const RelaxationMethod method :
        {RelaxationMethod::passes, RelaxationMethod::rkl, RelaxationMethod::plain}) {
-    Scene scene = stepped_scene();
-    scene.bed.surface.kind = SurfaceKind::cylinder;
-    scene.bed.surface.radius = 0.04;
-    scene.bed.surface.height = 0.05;
+    Scene scene = scene_of_a_pile();
     scene.relaxation.method = method;
     scene.relaxation.max_passes = 10;
     SteppedSimulation one(scene, starting_bed(scene.bed));
@@ -259,10 +264,7 @@ TEST(SteppedSimulation, CopiesShareTheSandThatNeitherTouched) {
 TEST(SteppedSimulation, GoesOnAfterAnExceptionFromItsWatcher) {
   struct Stop {};
   for (const RelaxationMethod method : {RelaxationMethod::passes, RelaxationMethod::rkl}) {
-    Scene scene = stepped_scene();
-    scene.bed.surface.kind = SurfaceKind::cylinder;
-    scene.bed.surface.radius = 0.04;
-    scene.bed.surface.height = 0.05;
+    Scene scene = scene_of_a_pile();
     scene.relaxation.method = method;
     SteppedSimulation one(scene, starting_bed(scene.bed));
     EXPECT_THROW(one.relax([](std::int64_t passes, const BedNow&) {
