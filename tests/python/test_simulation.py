@@ -70,6 +70,21 @@ def test_a_copy_goes_on_by_itself(small, device):
         assert np.array_equal(one.heights, tried.heights)
 
 
+def test_copies_treat_what_a_subclass_adds_as_python_does(small):
+    class Sculptor(sandstroke.Simulation):
+        def __init__(self, scene):
+            super().__init__(scene)
+            self.reached = [0.0]
+
+    sim = Sculptor(small)
+    shallow, deep = copy.copy(sim), copy.deepcopy(sim)
+    assert type(shallow) is type(deep) is Sculptor
+    sim.reached.append(1.0)
+    assert shallow.reached == [0.0, 1.0] and deep.reached == [0.0]
+    deep.tick((0.0, 0.0, -0.004))
+    assert sim.time == shallow.time == 0.0 and deep.time == 0.001
+
+
 def test_a_copy_with_a_law_of_ones_own_is_refused(small):
     def spring(depth, motion, tip, **numbers):
         return (0.0, 0.0, 100.0 * max(depth, 0.0))

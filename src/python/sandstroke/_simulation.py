@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Mapping
 from typing import Any
 
@@ -39,16 +40,19 @@ class Simulation:
 
         Copies share the sand that none of them changed, so a copy costs what differs. Not with laws of your own.
         """
-        copy = type(self).__new__(type(self))
-        copy.__dict__.update(self.__dict__)
-        copy._take(self._stepped.copy())
-        return copy
+        copied = type(self).__new__(type(self))
+        copied.__dict__.update(self.__dict__)
+        copied._take(self._stepped.copy())
+        return copied
 
     def __copy__(self) -> Simulation:
         return self.copy()
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Simulation:
         memo[id(self)] = copied = self.copy()
+        for name, own in self.__dict__.items():  # what a subclass adds
+            if name not in ("_stepped", "tick"):
+                copied.__dict__[name] = copy.deepcopy(own, memo)
         return copied
 
     def tick(self, position: Array, velocity: Array | None = None, *, down: bool = True,
