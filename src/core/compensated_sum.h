@@ -14,6 +14,11 @@ class CompensatedSum {
     sum_ = next;
   }
   double value() const { return sum_ + compensation_; }
+  template <class State>
+  void visit_state(State& state) {
+    state.value("sum", sum_);
+    state.value("compensation", compensation_);
+  }
 
  private:
   double sum_ = 0.0;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/state_visitor.h"
 #include "haptics/simulated_device.h"
 
 namespace sandstroke {
@@ -27,6 +28,12 @@ class LateForce {
   bool dropped() const { return dropped_; }
   /// Forgets the force that is held and those under way. It does not change which ticks are dropped.
   void clear();
+  void visit_state(StateVisitor& state) {
+    state.value("late_force.tick", tick_);
+    state.value("late_force.dropped", dropped_);
+    state.value("late_force.given_out", given_out_);
+    state.row("late_force.under_way", under_way_);
+  }
 
  private:
   double dropped_fraction_;

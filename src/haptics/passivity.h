@@ -25,6 +25,11 @@ class EnergyAccount {
   }
   /// Adds energy [J] that the sand received in another way, and may return.
   void give(double energy) { absorbed_ += energy; }
+  template <class State>
+  void visit_state(State& state) {
+    state.value("absorbed", absorbed_);
+    state.value("least", least_);
+  }
   double absorbed() const { return absorbed_; }  ///< J
   double least() const {
     return least_;

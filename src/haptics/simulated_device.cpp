@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
+#include <vector>
 
 namespace sandstroke {
 
@@ -98,6 +99,13 @@ void SimulatedDevice::advance(const State& hand, const State& hand_after, const 
     state_.position[axis] = after[0];
     state_.velocity[axis] = after[1];
   }
+}
+
+void SimulatedDevice::visit_state(StateVisitor& state) {
+  state.value("device.state", state_);
+  std::vector<Eigen::Vector3d> past(past_.begin(), past_.end());
+  state.list("device.past", past);
+  past_.assign(past.begin(), past.end());
 }
 
 }  // namespace sandstroke

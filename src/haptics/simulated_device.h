@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <deque>
 
+#include "core/state_visitor.h"
 #include "rules/schedule.h"
 
 namespace sandstroke {
@@ -61,6 +62,12 @@ class SimulatedDevice {
  public:
   struct State {
     Eigen::Vector3d position, velocity;  ///< m, m/s
+
+    template <class State>
+    void visit_state(State& state) {
+      state.value("position", position);
+      state.value("velocity", velocity);
+    }
   };
 
   /// Starts at the hand, with its velocity.
@@ -95,6 +102,8 @@ class SimulatedDevice {
   /// T / g [N s/m], which is 2 m / T for a free mass. drag_velocity() holds larger drag to what stops the
   /// device.
   double strongest_drag() const { return time_step_ / map_(0, 4); }
+
+  void visit_state(StateVisitor& state);
 
   /// Advances by one tick, during which the hand goes from one position to the next and `force` [N] is held.
   void advance(const State& hand, const State& hand_after, const Eigen::Vector3d& force);

@@ -14,6 +14,14 @@ struct Hand {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< m/s, the derivative of position
   bool down = false;                                                ///< false: lifted, nothing is touched
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< of the tool
+
+  template <class State>
+  void visit_state(State& state) {
+    state.value("position", position);
+    state.value("velocity", velocity);
+    state.value("down", down);
+    state.value("orientation", orientation.coeffs());
+  }
 };
 
 /// A stretch of time in which the tool is lifted.

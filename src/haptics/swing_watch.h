@@ -23,11 +23,26 @@ class SwingWatch {
   bool add(const Eigen::Vector3d& relative, const Eigen::Vector3d& hand, const Eigen::Vector3d& returned,
            double stored, double mass);
 
+  template <class State>
+  void visit_state(State& state) {
+    for (Axis& axis : axes_) state.value("axis", axis);
+  }
+
  private:
   struct Axis {
     double last = 0.0;                                         // m/s
     double fastest = 0.0, hand_fastest = 0.0, returned = 0.0;  // in this period: m/s, m/s, J
     double sum = 0.0, largest = 0.0;                           // over the successive periods: J, J
+
+    template <class State>
+    void visit_state(State& state) {
+      state.value("last", last);
+      state.value("fastest", fastest);
+      state.value("hand_fastest", hand_fastest);
+      state.value("returned", returned);
+      state.value("sum", sum);
+      state.value("largest", largest);
+    }
   };
   std::array<Axis, 3> axes_;
 };

@@ -11,6 +11,8 @@
 #include <thread>
 
 #include "core/error.h"
+#include "io/kept_simulation.h"
+#include "io/scene_toml.h"
 #include "io/surface_file.h"
 #include "python/arrays.h"
 #include "python/errors.h"
@@ -37,6 +39,7 @@ class Stepped {
       const Scene scene = with_files(here.scene, folder_);
       simulation_ = std::make_unique<SteppedSimulation>(
           scene, start ? *start : load_surface(scene.bed, folder_), relaxes);
+      start_ = copy_of(*simulation_);
     }
     warnings.give();
   }
@@ -54,10 +57,47 @@ class Stepped {
   }
   /// Its copies share the sand that none of them changed.
   std::unique_ptr<Stepped> copy() {
-    return std::unique_ptr<Stepped>(new Stepped(folder_, view_, use([](SteppedSimulation& simulation) {
-                                                  return std::make_unique<SteppedSimulation>(simulation);
-                                                })));
+    auto copy =
+        use([](SteppedSimulation& simulation) { return std::make_unique<SteppedSimulation>(simulation); });
+    return std::unique_ptr<Stepped>(new Stepped(folder_, view_, std::move(copy), start_));
   }
+  /// Goes back to where it began. Error: input, if a law of one's own cannot be copied.
+  void reset() {
+    if (!start_)
+      throw_input_error(
+          "a simulation with a law of your own that has no copy() cannot be reset; make a new one");
+    use([&](SteppedSimulation& simulation) { simulation = *start_; });
+  }
+  /// Error: input, if a law of one's own has a part in it.
+  std::string state() {
+    KeptSimulation kept{scene_text(scene().scene), folder_.string(), {}};
+    kept.state = use([](SteppedSimulation& simulation) { return simulation.state(); });
+    return kept_bytes(kept);
+  }
+  void set_state(const std::string& bytes) {
+    const KeptSimulation kept = kept_simulation(bytes, "the state");
+    check_same_scene(scene_text(scene().scene), kept.scene);
+    use([&](SteppedSimulation& simulation) { simulation.set_state(kept.state); });
+  }
+  void save(const std::filesystem::path& path) { write_text_file(path, state(), state_output); }
+  /// From state(). It needs no file of the surface that the simulation began with.
+  static std::unique_ptr<Stepped> from_state(const std::string& bytes, const std::string& name) {
+    const KeptSimulation kept = kept_simulation(bytes, name);
+    const SceneFile file = scene_from_text(kept.scene, name);
+    if (!file.plugin_laws.plugin.empty())
+      throw_input_error("{}: names a plugin, whose state no file can keep", name);
+    const std::filesystem::path folder = kept.folder;
+    const WithoutLock let_go;
+    const Scene scene = with_files(file, folder);
+    BedSettings bed = scene.bed;
+    if (bed.surface.kind == SurfaceKind::file)
+      bed.surface.kind = SurfaceKind::flat;  // the state has all of it
+    auto simulation = std::make_unique<SteppedSimulation>(scene, starting_bed(bed));
+    simulation->set_state(kept.state);
+    const auto start = copy_of(*simulation);
+    return std::unique_ptr<Stepped>(new Stepped(folder, file.view, std::move(simulation), start));
+  }
+
   const Scene& settings() const { return simulation_->scene(); }
   BedGeometry cells() const {
     const BedSettings& bed = settings().bed;
@@ -66,9 +106,21 @@ class Stepped {
   SceneHere scene() const { return {{simulation_->scene(), view_}, folder_}; }
 
  private:
+  using Start = std::shared_ptr<const SteppedSimulation>;
+
   Stepped(std::filesystem::path folder, const ViewSettings& view,
-          std::unique_ptr<SteppedSimulation> simulation)
-      : folder_(std::move(folder)), view_(view), simulation_(std::move(simulation)) {}
+          std::unique_ptr<SteppedSimulation> simulation, Start start)
+      : folder_(std::move(folder)),
+        view_(view),
+        simulation_(std::move(simulation)),
+        start_(std::move(start)) {}
+
+  /// None, if a law of one's own cannot be copied.
+  static Start copy_of(const SteppedSimulation& simulation) try {
+    return std::make_shared<const SteppedSimulation>(simulation);
+  } catch (const Error&) {
+    return nullptr;
+  }
 
   /// Tells which thread uses the simulation while it lives.
   struct User {
@@ -97,6 +149,7 @@ class Stepped {
   std::filesystem::path folder_;
   ViewSettings view_;
   std::unique_ptr<SteppedSimulation> simulation_;
+  Start start_;  // shares the sand that nothing touched
 };
 
 /// Reads n numbers from a sequence or array. Error: input, naming `name`.
@@ -195,6 +248,11 @@ void add_stepped(py::module_& module) {
            py::arg("down") = true, py::arg("orientation") = py::none())
       .def("relax", &relax)
       .def("copy", &Stepped::copy)
+      .def("reset", &Stepped::reset)
+      .def("state", [](Stepped& stepped) { return py::bytes(stepped.state()); })
+      .def("set_state", &Stepped::set_state)
+      .def("save", &Stepped::save)
+      .def_static("from_state", &Stepped::from_state)
       .def("lift", [](Stepped& stepped) { stepped.use([](SteppedSimulation& s) { s.lift(); }); })
       .def("height_at",
            [](Stepped& stepped, double x, double y) {

@@ -60,6 +60,12 @@ class RelaxationByWay {
     next_ = next;
   }
 
+  template <class State>
+  void visit_state(State& state) {
+    state.value("next", next_);
+    state.value("relaxed_at", relaxed_at_);
+  }
+
  private:
   bool on_;
   double next_ = 0.0;                          // m

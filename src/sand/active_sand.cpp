@@ -167,4 +167,20 @@ void ActiveSand::end(HeightField& bed, RelaxationOutcome& outcome) {
   outcome.wake_ups = activity_.wake_ups() - wake_ups_before_;
 }
 
+void ActiveSand::visit_state(StateVisitor& state) {
+  state.value("relaxation.looks_at_all", looks_at_all_);
+  state.list("relaxation.residuals", residuals_);
+  if (state.restores()) {
+    numbers_.clear();
+    group_residuals_.clear();
+    know_slots(static_cast<int>(residuals_.size()));
+  }
+  for (SharedUntilWritten<Residuals>& residuals : group_residuals_) {
+    Residuals groups = *residuals;
+    state.value("relaxation.group_residuals", groups);
+    if (state.restores()) residuals.write() = groups;
+  }
+  activity_.visit_state(state);
+}
+
 }  // namespace sandstroke

@@ -92,6 +92,9 @@ class ActiveSand {
   /// Writes the heights after the passes so far to the bed.
   void write_back(HeightField& bed) const;
 
+  /// Between relaxations.
+  void visit_state(StateVisitor& state);
+
   /// Heap memory for each tile that takes part in a relaxation [bytes].
   static constexpr std::size_t bytes_per_tile() {
     return sizeof(RelaxedTile) + sizeof(PatchHeights) + sizeof(int) + sizeof(Residuals) + sizeof(double) +

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "core/compensated_sum.h"
+#include "core/error.h"
 
 namespace sandstroke {
 namespace {
@@ -177,6 +178,43 @@ double HeightField::highest() const {
         highest = std::max(highest, tile_heights(slot)[row * tile_side + col]);
   }
   return highest;
+}
+
+std::vector<double> HeightField::some_untouched() const {
+  constexpr int places = 16;  // along an axis
+  std::vector<double> heights;
+  for (int i = 0; i < places; ++i)
+    for (int j = 0; j < places; ++j)
+      heights.push_back(
+          untouched_->height(*this, (rows() - 1) * i / (places - 1), (cols() - 1) * j / (places - 1)));
+  return heights;
+}
+
+void HeightField::visit_state(StateVisitor& state) {
+  state.same("bed.rows", rows());
+  state.same("bed.cols", cols());
+  std::uint64_t tiles = tiles_.size();
+  state.value("bed.tiles", tiles);
+  if (tiles < static_cast<std::uint64_t>(tile_count())) state.same("bed.surface", some_untouched());
+  if (state.restores()) {
+    std::fill_n(slots_.get(), tile_count(), 0);
+    tiles_.clear();
+  }
+  for (std::uint64_t slot = 0; slot < tiles; ++slot) {
+    if (state.restores()) tiles_.emplace_back();
+    if (!state.restores()) {
+      Tile tile = *tiles_[slot];
+      state.value("bed.tile", tile);
+      continue;
+    }
+    Tile& tile = tiles_[slot].write();
+    state.value("bed.tile", tile);
+    if (tile.index < 0 || tile.index >= tile_count() || slot_of(tile.index) >= 0)
+      throw_input_error("the state is of another bed: it has a tile {}", tile.index);
+    slots_.get()[tile.index] = static_cast<std::uint32_t>(slot) + 1;
+  }
+  state.list("bed.disturbed", disturbed_);
+  state.list("bed.tool_walls", tool_walls_);
 }
 
 bool same_where_untouched(const HeightField& one, const HeightField& other) {

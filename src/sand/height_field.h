@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/shared_until_written.h"
+#include "core/state_visitor.h"
 #include "rules/talus.h"
 #include "sand/bed_geometry.h"
 #include "sand/cell_flags.h"
@@ -19,6 +20,13 @@ namespace sandstroke {
 struct RowCells {
   int slot, row_in_tile;
   std::uint64_t cells;
+
+  template <class State>
+  void visit_state(State& state) {
+    state.value("slot", slot);
+    state.value("row_in_tile", row_in_tile);
+    state.value("cells", cells);
+  }
 };
 
 /// Mean cell heights [m] of a bed. A tile of cells is allocated when something touches it; until then a rule
@@ -124,6 +132,10 @@ class HeightField : public BedGeometry {
   /// bed.
   void read_tile(int tile, double* out, std::ptrdiff_t stride = tile_side) const;
 
+  /// All that later changes depend on, but for the rule. Error: input, of another bed's state, and if the
+  /// rule is another one.
+  void visit_state(StateVisitor& state);
+
   HeightGrid grid() const;
   /// sum(h) dx^2 [m^3], compensated. Tiles that are not allocated cost nothing where they are level.
   double volume() const;
@@ -142,6 +154,16 @@ class HeightField : public BedGeometry {
     std::uint64_t revision;
     int index;
     bool listed;  // in disturbed_
+
+    template <class State>
+    void visit_state(State& state) {
+      state.value("heights", heights);
+      state.value("disturbed", disturbed);
+      state.value("walls", walls);
+      state.value("revision", revision);
+      state.value("index", index);
+      state.value("listed", listed);
+    }
   };
   struct Free {
     void operator()(std::uint32_t* memory) const { std::free(memory); }
@@ -152,6 +174,8 @@ class HeightField : public BedGeometry {
     return (r % tile_side) * tile_side + c % tile_side;
   }
   int make_tile(int tile);
+  /// Heights [m] of some cells by the rule, which tell it from other ones.
+  std::vector<double> some_untouched() const;
   /// The cells of a tile's row that lie beyond the bed's wall.
   std::uint64_t beyond_wall(int tile, int row_in_tile) const;
 

@@ -4,6 +4,8 @@
 #include <functional>
 #include <memory>
 
+#include "core/error.h"
+#include "core/state_visitor.h"
 #include "rules/schedule.h"
 #include "rules/talus.h"
 #include "sand/height_field.h"
@@ -75,6 +77,10 @@ class Relaxer {
   virtual ~Relaxer() = default;
   /// A copy that goes on with a copy of the bed; none: it cannot be copied.
   virtual std::unique_ptr<Relaxer> copy() const { return nullptr; }
+  /// The bed must be as it was. Error: input, of a law that cannot tell its state, as those of plugins.
+  virtual void visit_state(StateVisitor& /*state*/) {
+    throw_input_error("the state of a plugin's law of relaxation is not known; it cannot be kept");
+  }
   /// Stops at equilibrium, after max_passes (those that changed something, rejected ones included), or when
   /// interrupted(). Meanwhile the bed keeps its old heights, unless after_pass asks for it (or coarser beds
   /// help: multilevel).

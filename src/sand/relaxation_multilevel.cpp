@@ -35,6 +35,7 @@ class MultilevelRelaxer : public Relaxer {
         talus_factors_(other.talus_factors_),
         stepper_(other.stepper_->copy_stepper()) {}
   std::unique_ptr<Relaxer> copy() const override { return std::make_unique<MultilevelRelaxer>(*this); }
+  void visit_state(StateVisitor& state) override { stepper_->visit_state(state); }
 
   RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
     return relax(bed, 0.0, after_pass);

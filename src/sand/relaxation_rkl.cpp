@@ -95,6 +95,7 @@ class RklRelaxer : public SuperStepper {
   }
 
   std::unique_ptr<SuperStepper> copy_stepper() const override { return std::make_unique<RklRelaxer>(*this); }
+  void visit_state(StateVisitor& state) override { sand_.visit_state(state); }
   const std::vector<int>& awake_tiles() const override { return sand_.tiles(); }
 
   struct StepTile {

@@ -13,6 +13,7 @@ class TileRelaxer : public Relaxer {
       : max_passes_(settings.max_passes),
         sand_(talus_law(settings, cell_size), settings.tolerance, cell_size) {}
   std::unique_ptr<Relaxer> copy() const override { return std::make_unique<TileRelaxer>(*this); }
+  void visit_state(StateVisitor& state) override { sand_.visit_state(state); }
 
   RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
     RelaxationOutcome outcome;

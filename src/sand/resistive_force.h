@@ -49,6 +49,18 @@ struct Wrench {
   Eigen::Vector3d given = Eigen::Vector3d::Zero();  ///< N, what the scene's device gives of the force
   double given_stored = 0.0;                        ///< J, as stored, of that
 
+  template <class State>
+  void visit_state(State& state) {
+    state.value("force", force);
+    state.value("torque", torque);
+    state.value("stiffness", stiffness);
+    state.value("stored", stored);
+    state.value("strength", strength);
+    state.value("whole", whole);
+    state.value("given", given);
+    state.value("given_stored", given_stored);
+  }
+
   /// The wrench of weaker sand, whose force on the whole tool is at most max_force [N], as a device of that
   /// maximum is to give it (0: unchanged). If only the force were cut, the sand would stay as stiff as before
   /// when the tool reverses, and reverse the force late. Stiffness and strength are those of sand in which
@@ -93,6 +105,14 @@ class ResistiveForce {
               const Eigen::Vector3d& motion, const SandStrength& sand);
   /// Tells that the tool touches nothing: forgets the elements' displacements.
   void lift();
+
+  /// The tool must be turned as it was.
+  void visit_state(StateVisitor& state) {
+    before_.visit_state(state);
+    state.row("force.ways", ways_);
+    state.value("force.felt_rotation", felt_rotation_);
+    state.value("force.felt", felt_);
+  }
 
   const ToolElements& elements() const { return elements_; }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/aligned_vector.h"
+#include "core/state_visitor.h"
 #include "sand/tool_footprint.h"
 #include "tool/tool_elements.h"
 
@@ -47,6 +48,21 @@ class SandBefore {
   bool look(const HeightField& bed, const ToolFootprint& footprint, const Eigen::Vector3d& tip, double foot,
             const Motion& motion, double wedge);
 
+  void visit_state(StateVisitor& state) {
+    state.row("force.side.ways", ways_);
+    state.row("force.side.cells_out", cells_out_);
+    state.row("force.side.since", since_);
+    state.row("force.side.seen", seen_);
+    state.row("force.side.places", places_);
+    state.row("force.side.known", known_);
+    state.row("force.side.heights", heights_);
+    state.value("force.slope_since", slope_since_);
+    state.value("force.slope_seen", slope_seen_);
+    state.value("force.slope", slope_);
+    state.value("force.mean", mean_);
+    state.value("force.level", level_);
+  }
+
   /// The side of each element, elements.size() numbers.
   const std::int64_t* side_of() const { return side_of_.data(); }
   /// m, of the sand before each side. -infinity: no sand gets there.
@@ -57,6 +73,14 @@ class SandBefore {
   struct Mean {
     double height = 0.0, weight = 0.0;  // m^3, m^2
     Eigen::Vector2d height_ahead = Eigen::Vector2d::Zero(), weight_ahead = Eigen::Vector2d::Zero();
+
+    template <class State>
+    void visit_state(State& state) {
+      state.value("height", height);
+      state.value("weight", weight);
+      state.value("height_ahead", height_ahead);
+      state.value("weight_ahead", weight_ahead);
+    }
   };
   const Mean& mean() const { return mean_; }
   const Eigen::Vector2d& slope() const { return slope_; }

@@ -109,6 +109,21 @@ double ShapedTool::displace_in_footprint(const HeightField& bed, double tip_heig
   return carved;
 }
 
+void ShapedTool::visit_state(StateVisitor& state, const HeightField& bed, const Eigen::Vector3d& tip) {
+  bool placed = envelope_.has_value(), touches = touches_;
+  double covered = covered_;
+  state.value("tool.rotation", rotation_);
+  state.value("tool.placed", placed);
+  state.value("tool.touches", touches);
+  state.value("tool.covered", covered);
+  if (!state.restores()) return;
+  envelope_.reset();
+  footprint_.close();
+  if (placed) place(bed, tip.x(), tip.y());
+  touches_ = touches;
+  covered_ = covered;
+}
+
 void ShapedTool::stand(double tip_height) {
   if (!footprint_.cells().empty())
     covered_ = covered_height(tip_height, -std::numeric_limits<double>::infinity());

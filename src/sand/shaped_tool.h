@@ -22,6 +22,7 @@ class ShapedTool : public Tool {
   bool would_turn(const Eigen::Matrix3d& rotation) const override;
   void turn(const Eigen::Matrix3d& rotation) override;
   void place(const HeightField& bed, double x, double y) override;
+  void visit_state(StateVisitor& state, const HeightField& bed, const Eigen::Vector3d& tip) override;
   bool may_touch_heaps() const override { return true; }
   bool touches() const override { return touches_; }
   void stand(double tip_height) override;

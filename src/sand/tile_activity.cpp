@@ -121,4 +121,12 @@ void TileActivity::make_seen_tiles(HeightField& bed) {
   }
 }
 
+void TileActivity::visit_state(StateVisitor& state) {
+  state.list("relaxation.awake", tiles_);
+  if (state.restores()) marks_ = {};
+  for (const int slot : tiles_)
+    state.value("relaxation.awake.cells", marks_.make(static_cast<std::size_t>(slot)));
+  state.value("relaxation.wake_ups", wake_ups_);
+}
+
 }  // namespace sandstroke

@@ -63,6 +63,8 @@ class TileActivity {
     return static_cast<std::size_t>(slot) < marks_.size() && marks_[slot] ? marks_[slot]->givers : none;
   }
 
+  void visit_state(StateVisitor& state);
+
   static constexpr std::size_t bytes_per_tile() { return sizeof(Marks) + sizeof(std::unique_ptr<Marks>); }
   /// How often a tile at rest became active, since construction.
   std::int64_t wake_ups() const { return wake_ups_; }
@@ -79,6 +81,16 @@ class TileActivity {
     RowSpan rows;             // rows that hold the flags of active and givers
     bool listed = false;      // in tiles_
     bool was_active = false;  // in tiles_before_
+
+    template <class State>
+    void visit_state(State& state) {
+      state.value("active", active);
+      state.value("givers", givers);
+      state.value("seen", seen);
+      state.value("rows.begin", rows.begin);
+      state.value("rows.end", rows.end);
+      state.value("listed", listed);
+    }
     void sleep() {
       for (int row = rows.begin; row < rows.end; ++row) active[row] = givers[row] = 0;
       rows = {};

@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 
+#include "core/state_visitor.h"
 #include "rules/displacement.h"
 #include "sand/tool_footprint.h"
 #include "tool/tool_settings.h"
@@ -38,6 +39,10 @@ class Tool {
   /// Height [m] of the sand around the tool, from which depths count. NaN if the footprint lies outside the
   /// bed.
   double sand_level() const { return level_; }
+  /// tip [m]: where it was placed last. When the state is put back, it is placed there.
+  virtual void visit_state(StateVisitor& state, const HeightField& bed, const Eigen::Vector3d& tip) {
+    if (state.restores()) place(bed, tip.x(), tip.y());
+  }
   /// Reads the sand under the footprint again.
   void read_heights(const HeightField& bed) { footprint_.read_heights(bed); }
 

@@ -12,6 +12,7 @@ class PlainRelaxer : public WholeBedRelaxer {
   PlainRelaxer(const RelaxationSettings& settings, double cell_size)
       : WholeBedRelaxer(settings.max_passes), law_(talus_law(settings, cell_size)) {}
   std::unique_ptr<Relaxer> copy() const override { return std::make_unique<PlainRelaxer>(*this); }
+  void visit_state(StateVisitor& /*state*/) override {}
 
  protected:
   TalusPass pass(const HeightGrid& heights, const WallGrid& walls, CompensatedSum& moved) const override {

@@ -40,6 +40,14 @@ class ElasticForce : public ToolForce {
     turn_surface(rotation);
   }
 
+  void visit_state(StateVisitor& state) override {
+    state.value("force.rotation", rotation_);
+    state.value("force.felt_rotation", felt_rotation_);
+    state.value("force.on_tool", on_tool_);
+    state.value("force.on_device", on_device_);
+    if (state.restores() && turns_) turn_surface(rotation_);
+  }
+
   Wrench feel(const ToolInSand& touch) override {
     const Wrench asked = law(touch);
     if (asked.stiffness > 0.0) return elastic(asked, touch.motion);
@@ -98,6 +106,11 @@ class RftForce : public ElasticForce {
     resistive_.lift();
   }
 
+  void visit_state(StateVisitor& state) override {
+    ElasticForce::visit_state(state);
+    resistive_.visit_state(state);
+  }
+
  private:
   void turn_surface(const Eigen::Matrix3d& rotation) override { resistive_.turn(rotation); }
   Wrench law(const ToolInSand& touch) override {
@@ -121,6 +134,10 @@ class ArchimedesForce : public ElasticForce {
   void lift() override {
     ElasticForce::lift();
     sunk_ = 0.0;
+  }
+  void visit_state(StateVisitor& state) override {
+    ElasticForce::visit_state(state);
+    state.value("force.sunk", sunk_);
   }
 
  private:

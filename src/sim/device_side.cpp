@@ -110,6 +110,20 @@ DeviceResult DeviceSide::result() const {
   return result;
 }
 
+void DeviceSide::visit_state(StateVisitor& state) {
+  device_.visit_state(state);
+  late_force_.visit_state(state);
+  state.value("device.energy", energy_);
+  state.value("device.lifted", lifted_);
+  state.value("device.fading_since", fading_since_);
+  state.value("device.fraction", fraction_);
+  state.value("device.contact_force", contact_force_);
+  state.value("device.contact_ticks", contact_ticks_);
+  state.value("device.swing", swing_);
+  state.value("device.most_stored", most_stored_);
+  state.value("device.result", result_);
+}
+
 std::string loop_remedies(const Scene& scene, double max_drag_force) {
   const DeviceSettings& device = scene.device;
   auto [lower, raise] = make_device_force(scene)->remedy(max_drag_force);

@@ -35,6 +35,8 @@ class DeviceSide {
   /// beyond any number.
   void advance(const TickRecord& record);
 
+  void visit_state(StateVisitor& state);
+
   /// Forces, energy and passivity of all ticks so far.
   DeviceResult result() const;
 

@@ -31,6 +31,12 @@ class ElasticWrench {
   /// J
   double stored() const;
 
+  template <class State>
+  void visit_state(State& state) {
+    state.value("force", force_);
+    state.value("stiffness", stiffness_);
+  }
+
  private:
   Six force_ = Six::Zero();
   double stiffness_ = 0.0;

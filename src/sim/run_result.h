@@ -37,6 +37,28 @@ struct TickRecord {
   bool lifts = false;             ///< the hand is lifted before the tick ends
   /// Depth below the sand that the hand asks for [m]; NaN: it is lifted, or does not follow the sand.
   double asked_depth = std::numeric_limits<double>::quiet_NaN();
+
+  template <class State>
+  void visit_state(State& state) {
+    state.value("time", time);
+    state.value("hand", hand);
+    state.value("next", next);
+    state.value("device_position", device_position);
+    state.value("device_force", device_force);
+    state.value("repulse_force", repulse_force);
+    state.value("drag_force", drag_force);
+    state.value("recorded_force", recorded_force);
+    state.value("wrench", wrench);
+    state.value("level", level);
+    state.value("depth", depth);
+    state.value("displaced_volume", displaced_volume);
+    state.value("passivity_margin", passivity_margin);
+    state.value("contact", contact);
+    state.value("saturated", saturated);
+    state.value("dropped", dropped);
+    state.value("lifts", lifts);
+    state.value("asked_depth", asked_depth);
+  }
 };
 
 /// The fields that only the traces of some runs hold.
@@ -235,6 +257,20 @@ struct DeviceResult {
   double limited_drag = 0.0;
   std::optional<double> swings_from =
       {};  ///< s, from when a dynamic device was found to swing by itself (SwingWatch)
+
+  template <class State>
+  void visit_state(State& state) {
+    state.value("saturated_ticks", saturated_ticks);
+    state.value("max_force", max_force);
+    state.value("mean_force", mean_force);
+    state.value("absorbed_energy", absorbed_energy);
+    state.value("least_absorbed_energy", least_absorbed_energy);
+    state.value("least_passivity_margin", least_passivity_margin);
+    state.value("max_drag_force", max_drag_force);
+    state.value("limited_drag_ticks", limited_drag_ticks);
+    state.value("limited_drag", limited_drag);
+    state.value("swings_from", swings_from);
+  }
 };
 
 /// The result of a stroke that follows the sand: means over the ticks in which it asked to be in the sand.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/elementary.h"
+#include "core/error.h"
 #include "core/interrupt.h"
 #include "sand/tool_path.h"
 
@@ -126,6 +127,16 @@ void SandSide::make_walls(HeightField& bed) {
 
 void SandSide::relaxed(const HeightField& bed) {
   by_way_.relaxed(tip_, contact_, contact_ ? way_to_next_relaxation(bed) : 0.0);
+}
+
+void SandSide::visit_state(StateVisitor& state, const HeightField& bed) {
+  if (plugin_law_)
+    throw_input_error("the state of a plugin's displacement law is not known; it cannot be kept");
+  state.value("tool.by_way", by_way_);
+  state.value("tool.last_tip", last_tip_);
+  state.value("tool.tip", tip_);
+  state.value("tool.contact", contact_);
+  tool_->visit_state(state, bed, tip_);
 }
 
 }  // namespace sandstroke

@@ -72,6 +72,8 @@ class SandSide {
     tool_->read_heights(bed);
     return *tool_;
   }
+  /// bed: as the state has it. Error: input, if a plugin law displaces sand.
+  void visit_state(StateVisitor& state, const HeightField& bed);
   /// Swaps the tool for another one, which is used from the next move() on.
   void exchange(std::unique_ptr<Tool>& other) { std::swap(tool_.pointer(), other); }
   /// Position of the tool in the last tick [m]; none if it was lifted since.

@@ -44,4 +44,25 @@ const TickRecord& SteppedSimulation::tick(Hand hand, const ToldMotion& told) {
   return *last_;
 }
 
+void SteppedSimulation::visit_state(StateVisitor& state) {
+  loop_.visit_state(state);
+  state.value("relaxes", relaxes_);
+  state.value("ticks", ticks_);
+  state.value("last", last_);
+}
+
+std::string SteppedSimulation::state() {
+  StateKeeper keeper;
+  visit_state(keeper);
+  return std::move(keeper).kept();
+}
+
+void SteppedSimulation::set_state(std::string_view state) {
+  SteppedSimulation other = *this;
+  StateRestorer restorer(state);
+  other.visit_state(restorer);
+  restorer.end();
+  *this = std::move(other);
+}
+
 }  // namespace sandstroke

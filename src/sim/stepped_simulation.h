@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "sim/tick_loop.h"
 
@@ -35,7 +37,16 @@ class SteppedSimulation {
   RelaxationOutcome relax(const PassWatcher& watcher = {}) { return loop_.relax(watcher); }
   void lift() { loop_.lift(); }
 
+  /// All that later ticks depend on, as bytes that this build of the library reads. Error: input, if a plugin
+  /// law has a part in them.
+  std::string state();
+  /// Goes on from a state of a simulation of the same scene. Error: input, if it is none: then this
+  /// simulation is as it was.
+  void set_state(std::string_view state);
+
  private:
+  void visit_state(StateVisitor& state);
+
   TickLoop loop_;
   bool relaxes_;
   std::int64_t ticks_ = 0;

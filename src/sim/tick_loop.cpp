@@ -81,6 +81,16 @@ RelaxationOutcome TickLoop::relax(const PassWatcher& watcher) {
   return outcome;
 }
 
+void TickLoop::visit_state(StateVisitor& state) {
+  if (scene().tool.mesh) state.same("tool.file", content_hash(*scene().tool.mesh));
+  bed_.visit_state(state);
+  sand_.visit_state(state, bed_);
+  tool_force_->visit_state(state);
+  device_.visit_state(state);
+  relaxer_->visit_state(state);
+  if (state.restores()) at_rest_.reset();
+}
+
 const HeightField& TickLoop::bed_at_rest() {
   const RelaxationSettings& settings = scene().relaxation;
   if (!scene().plugin_laws.relaxation.empty() || (settings.rate == 0.0 && settings.way == 0.0)) return bed_;

@@ -47,6 +47,8 @@ class TickLoop {
   void advance(const TickRecord& record);
   /// The tool touches nothing.
   void lift();
+  /// All that later ticks depend on. Error: input, if a plugin law has a part in them.
+  void visit_state(StateVisitor& state);
   /// Relaxes the sand to rest, around a solid tool or into the hollow that it has left. Error: unstable,
   /// where a plugin law makes or loses sand.
   RelaxationOutcome relax(const PassWatcher& watcher);

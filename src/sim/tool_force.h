@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include "core/error.h"
+#include "core/state_visitor.h"
 #include "sand/resistive_force.h"
 #include "sim/sand_side.h"
 
@@ -22,6 +24,10 @@ class ToolForce {
   virtual ~ToolForce() = default;
   /// A copy with all that it knows, for copies of a simulation; none: it cannot be copied.
   virtual std::unique_ptr<ToolForce> copy() const { return nullptr; }
+  /// Error: input, of a law that cannot tell its state, as those of plugins.
+  virtual void visit_state(StateVisitor& /*state*/) {
+    throw_input_error("the state of a plugin's law of force is not known; it cannot be kept");
+  }
   /// Feels in a tick in contact.
   virtual Wrench feel(const ToolInSand& touch) = 0;
   /// The tool touches no sand: what was known of its way is gone.
@@ -50,6 +56,7 @@ class ToolForce {
 class NoToolForce : public ToolForce {
  public:
   std::unique_ptr<ToolForce> copy() const override { return std::make_unique<NoToolForce>(); }
+  void visit_state(StateVisitor& /*state*/) override {}
   Wrench feel(const ToolInSand& /*touch*/) override { return {}; }
   bool gives_wrench() const override { return false; }
 };

@@ -5,8 +5,16 @@
 
 #include "core/compensated_sum.h"
 #include "core/elementary.h"
+#include "core/hash.h"
 
 namespace sandstroke {
+
+std::string content_hash(const TriangleMesh& mesh) {
+  ContentHash hash;
+  for (const Eigen::Vector3d& vertex : mesh.vertices) hash.add(vertex.data(), sizeof vertex);
+  for (const auto& corners : mesh.triangles) hash.add(corners.data(), sizeof corners);
+  return hash.text();
+}
 
 double enclosed_volume(const TriangleMesh& mesh) {
   CompensatedSum volume;

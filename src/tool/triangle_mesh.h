@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace sandstroke {
@@ -17,6 +18,9 @@ struct TriangleMesh {
   }
   bool operator==(const TriangleMesh&) const = default;
 };
+
+/// The hash of its numbers.
+std::string content_hash(const TriangleMesh& mesh);
 
 /// The volume inside a closed surface [m^3]: the sum over triangles of a . (b x c) / 6. It is negative where
 /// the surface is inside out.

@@ -1,6 +1,7 @@
 """Ticks that Python drives are those of a run."""
 import copy
 import gc
+import pickle
 import resource
 import subprocess
 import sys
@@ -85,6 +86,80 @@ def test_copies_treat_what_a_subclass_adds_as_python_does(small):
     assert sim.time == shallow.time == 0.0 and deep.time == 0.001
 
 
+class Measured(sandstroke.Simulation):
+    reached = ()
+
+
+def test_pickle_keeps_class_and_attributes(small):
+    sim = Measured(small, relaxes=False)
+    sim.reached = [1.0, 2.0]
+    again = pickle.loads(pickle.dumps(sim))
+    assert type(again) is Measured and again.reached == [1.0, 2.0]
+    for k in range(40):
+        for one in (sim, again):
+            one.tick((-0.05 + 5e-4 * k, 0.0, -0.006))
+    assert np.array_equal(sim.heights, again.heights)
+
+
+GO_ON = """
+import pickle, sys
+import numpy as np
+import sandstroke
+sim = sandstroke.Simulation.load(sys.argv[1])
+forces = [sim.tick((-0.05 + 5e-4 * k, 0.002 * np.sin(0.3 * k), -0.005)).force for k in range(60, 120)]
+np.savez(sys.argv[2], forces=forces, heights=sim.heights)
+"""
+
+
+@pytest.mark.parametrize("settings", [RFT, {"device.model": "dynamic", "device.delay": 2},
+                                      {"model.preset": "accurate", "tool.shape": "plate", "tool.width": 0.03}])
+def test_a_state_goes_on_in_another_process_with_the_same_bits(small, tmp_path, settings):
+    def hand(k):
+        return (-0.05 + 5e-4 * k, 0.002 * np.sin(0.3 * k), -0.005)
+
+    surface = 0.001 * np.random.default_rng(1).random(sandstroke.Simulation(small).heights.shape)
+    sim = sandstroke.Simulation(small, settings=settings, surface=surface)
+    for k in range(60):
+        sim.tick(hand(k))
+    sim.save(tmp_path / "sim.state")
+    pickled = pickle.loads(pickle.dumps(sim))
+    other = sandstroke.Simulation(small, settings=settings)
+    other.set_state(sim.state())
+    forces = [sim.tick(hand(k)).force for k in range(60, 120)]
+    subprocess.run([sys.executable, "-c", GO_ON, tmp_path / "sim.state", tmp_path / "on.npz"], check=True)
+    on = np.load(tmp_path / "on.npz")
+    assert np.array_equal(on["forces"], forces) and np.array_equal(on["heights"], sim.heights)
+    for one in (pickled, other):
+        assert np.array_equal([one.tick(hand(k)).force for k in range(60, 120)], forces)
+        assert np.array_equal(one.heights, sim.heights)
+    pickled.reset()
+    assert pickled.time == 0.06
+    tick = sim.tick
+    sim.reset()
+    assert sim.time == 0.0 and np.array_equal(sim.heights, surface)
+    tick(hand(0))  # the name goes on with the same simulation
+    assert sim.time == 0.001
+
+
+def test_a_state_of_another_scene_or_file_is_refused(small, tmp_path):
+    sim, steeper = sandstroke.Simulation(small), sandstroke.Simulation(small, settings={"relaxation.talus_angle": 34})
+    steeper.tick((0.0, 0.0, -0.004))
+    with pytest.raises(sandstroke.InputError, match="talus_angle = 34.*talus_angle = 30"):
+        sim.set_state(steeper.state())
+    assert sim.time == 0.0
+    with pytest.raises(sandstroke.InputError, match="cut off"):
+        sim.set_state(sim.state()[:-100])
+    notes = tmp_path / "notes.txt"
+    notes.write_text("mine")
+    with pytest.raises(sandstroke.InputError, match="notes.txt.*not a simulation's state"):
+        sandstroke.Simulation.load(notes)
+    with pytest.raises(sandstroke.Error, match="notes.txt"):
+        sim.save(notes)
+    assert notes.read_text() == "mine"
+    with pytest.raises(FileNotFoundError):
+        sandstroke.Simulation.load(tmp_path / "none.state")
+
+
 def test_a_copy_with_a_law_of_ones_own_is_refused(small):
     def spring(depth, motion, tip, **numbers):
         return (0.0, 0.0, 100.0 * max(depth, 0.0))
@@ -93,6 +168,10 @@ def test_a_copy_with_a_law_of_ones_own_is_refused(small):
     sim.tick((0.0, 0.0, -0.004))
     with pytest.raises(sandstroke.InputError, match="force .*cannot be copied"):
         sim.copy()
+    with pytest.raises(sandstroke.InputError, match="law of force"):
+        sim.state()
+    with pytest.raises(sandstroke.InputError, match="reset"):
+        sim.reset()
     assert sim.tick((0.0, 0.0, -0.004)).force[2] > 0.0
 
 

@@ -4,12 +4,15 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <random>
+#include <string>
 #include <thread>
 #include <vector>
 
 #include "core/error.h"
 #include "sim/simulation.h"
+#include "tool/tool_surface.h"
 
 namespace sandstroke {
 namespace {
@@ -278,6 +281,118 @@ TEST(SteppedSimulation, GoesOnAfterAnExceptionFromItsWatcher) {
       EXPECT_NEAR(simulation->bed().volume(), starting_bed(scene.bed).volume(), 1e-18);
     }
   }
+}
+
+TEST(SteppedSimulation, GoesOnFromAStateWithTheSameBits) {
+  const Stroke stroke = stepped_stroke(0.7, false);
+  std::mt19937 random(5);
+  for (const Scene& scene : scenes_with_a_past()) {
+    const int from = static_cast<int>(random() % 300), to = from + 60;
+    SteppedSimulation whole(scene, starting_bed(scene.bed));
+    play(whole, stroke, 0, from);
+    const std::string state = whole.state();
+    const std::vector<TickRecord> expected = play(whole, stroke, from, to);
+
+    SteppedSimulation other(scene, starting_bed(scene.bed));
+    play(other, stroke, to, to + 20);  // it was elsewhere
+    other.set_state(state);
+    EXPECT_NEAR(other.time(), 1e-3 * from, 1e-12);
+    EXPECT_TRUE(other.state() == state);  // too long to be shown
+    expect_same(play(other, stroke, from, to), expected);
+    for (SteppedSimulation* simulation : {&whole, &other}) {
+      simulation->lift();
+      simulation->relax();
+    }
+    EXPECT_TRUE(same_sand(other, whole));
+  }
+}
+
+TEST(SteppedSimulation, KeepsWhichSandIsAwakeInAState) {
+  for (const RelaxationMethod method : {RelaxationMethod::passes, RelaxationMethod::rkl}) {
+    Scene scene = stepped_scene();
+    scene.bed.surface.kind = SurfaceKind::cylinder;
+    scene.bed.surface.radius = 0.04;
+    scene.bed.surface.height = 0.05;
+    scene.relaxation.method = method;
+    scene.relaxation.max_passes = 10;
+    SteppedSimulation one(scene, starting_bed(scene.bed)), other = one;
+    one.relax();
+    other.set_state(one.state());
+    for (int i = 0; i < 3; ++i) {
+      const RelaxationOutcome a = one.relax(), b = other.relax();
+      EXPECT_EQ(a.passes, b.passes);
+      EXPECT_EQ(a.residual, b.residual);
+    }
+    EXPECT_TRUE(same_sand(one, other));
+  }
+}
+
+TEST(SteppedSimulation, RefusesAStateThatIsCutOffOrOfAnotherScene) {
+  Scene scene = stepped_scene();
+  scene.force.law = ForceLaw::rft;
+  SteppedSimulation one(scene, starting_bed(scene.bed)), other = one;
+  play(one, stepped_stroke(0.1, false), 0, 100);
+  const std::string state = one.state();
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{5}, std::size_t{40}, state.size() / 2, state.size() - 1})
+    EXPECT_THROW(other.set_state(std::string_view(state).substr(0, size)), Error) << size;
+  EXPECT_THROW(other.set_state(state + "x"), Error);
+  EXPECT_EQ(other.time(), 0.0);  // as it was
+  EXPECT_EQ(other.bed().allocated_tiles(), 0);
+  scene.force.law = ForceLaw::paper;
+  SteppedSimulation by_another_law(scene, starting_bed(scene.bed));
+  EXPECT_THROW(by_another_law.set_state(state), Error);
+  other.set_state(state);
+  EXPECT_TRUE(same_sand(one, other));
+}
+
+TEST(SteppedSimulation, RefusesAStateThatWasChanged) {
+  SteppedSimulation one(stepped_scene(), starting_bed(stepped_scene().bed));
+  play(one, stepped_stroke(0.1, false), 0, 100);
+  std::mt19937 random(3);
+  for (int i = 0; i < 200; ++i) {
+    std::string state = one.state();
+    state[random() % state.size()] ^= static_cast<char>(1 << random() % 8);
+    EXPECT_THROW(one.set_state(state), Error);
+  }
+}
+
+/// The scene's text is the same, but a file that it names has changed, or somebody gave another surface.
+TEST(SteppedSimulation, RefusesAStateOfAnotherToolOrSurface) {
+  Scene scene = stepped_scene();
+  scene.tool.shape = ToolShape::mesh;
+  ToolSettings box;
+  box.shape = ToolShape::plate;
+  box.width = 0.04;
+  box.thickness = 0.01;
+  auto mesh = std::make_shared<TriangleMesh>(tool_surface(box));
+  scene.tool.mesh = mesh;
+  SteppedSimulation one(scene, starting_bed(scene.bed));
+  play(one, stepped_stroke(0.1, false), 0, 50);
+  auto other_mesh = std::make_shared<TriangleMesh>(*mesh);
+  for (Eigen::Vector3d& vertex : other_mesh->vertices) vertex.x() *= 1.01;
+  scene.tool.mesh = other_mesh;
+  SteppedSimulation with_another_tool(scene, starting_bed(scene.bed));
+  EXPECT_THROW(with_another_tool.set_state(one.state()), Error);
+
+  const Scene pile = scene_of_a_pile();
+  SteppedSimulation on_pile(pile, starting_bed(pile.bed));
+  SteppedSimulation on_level(pile, HeightField(pile.bed.rows, pile.bed.cols, pile.bed.cell_size()));
+  EXPECT_THROW(on_level.set_state(on_pile.state()), Error);
+  SteppedSimulation on_heights(pile, HeightField(starting_bed(pile.bed).grid(), pile.bed.cell_size()));
+  on_level.set_state(on_heights.state());  // has all heights
+  EXPECT_TRUE(same_sand(on_level, on_heights));
+}
+
+TEST(SteppedSimulation, KeepsInAStateWhetherItRelaxes) {
+  const Scene scene = stepped_scene();
+  SteppedSimulation relaxes(scene, starting_bed(scene.bed)), stays(scene, starting_bed(scene.bed), false);
+  SteppedSimulation other = relaxes;
+  other.set_state(stays.state());
+  for (SteppedSimulation* simulation : {&relaxes, &stays, &other})
+    play(*simulation, stepped_stroke(0.2, false), 0, 200);
+  EXPECT_TRUE(same_sand(other, stays));
+  EXPECT_FALSE(same_sand(other, relaxes));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import os
 from collections.abc import Mapping
 from typing import Any
 
@@ -45,15 +46,51 @@ class Simulation:
         copied._take(self._stepped.copy())
         return copied
 
+    def reset(self) -> None:
+        """Goes back to where it began: as it was made, or loaded. Not with laws of your own."""
+        self._stepped.reset()
+
+    def state(self) -> bytes:
+        """Returns all that it takes to go on with the same bits, also in another process: scene, sand, tool, device.
+
+        Only the version of sandstroke that made it reads it. Not with laws of your own.
+        """
+        return self._stepped.state()
+
+    def set_state(self, state: bytes) -> None:
+        """Goes on from a state() of a simulation of the same scene; if it is another's, nothing changes."""
+        self._stepped.set_state(state)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes state() to a file. It replaces only another state."""
+        self._stepped.save(os.fspath(path))
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Simulation:
+        """Returns the simulation that save() wrote. Files that its scene names, but for the surface, must be there."""
+        with open(path, "rb") as file:
+            return cls._of_state(file.read(), os.fspath(path))
+
+    @classmethod
+    def _of_state(cls, state: bytes, name: str = "the state") -> Simulation:
+        simulation = cls.__new__(cls)
+        simulation._take(_core._Simulation.from_state(state, name))
+        return simulation
+
+    def __reduce__(self) -> tuple[Any, ...]:  # pickle
+        return type(self)._of_state, (self.state(),), self._own()
+
     def __copy__(self) -> Simulation:
         return self.copy()
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Simulation:
         memo[id(self)] = copied = self.copy()
-        for name, own in self.__dict__.items():  # what a subclass adds
-            if name not in ("_stepped", "tick"):
-                copied.__dict__[name] = copy.deepcopy(own, memo)
+        copied.__dict__.update(copy.deepcopy(self._own(), memo))
         return copied
+
+    def _own(self) -> dict[str, Any]:
+        """Returns what a subclass adds."""
+        return {name: own for name, own in self.__dict__.items() if name not in ("_stepped", "tick")}
 
     def tick(self, position: Array, velocity: Array | None = None, *, down: bool = True,
              orientation: Array | None = None) -> Tick:
