@@ -21,6 +21,7 @@
 #include "io/input_kind.h"
 #include "io/png_file.h"
 #include "io/run_file.h"
+#include "io/run_state.h"
 #include "io/scene_toml.h"
 #include "io/xdmf.h"
 #include "measure/force_agreement.h"
@@ -44,6 +45,8 @@ struct RunArguments {
   int threads = 0;
   std::string estimate_error;  // coarser, finer or empty
   bool error_map = false;
+  double checkpoint = 0.0;  // s
+  bool resume = false;
   bool view = false, no_open = false;
   bool json = false, strict = false;
 };
@@ -114,6 +117,12 @@ void check_default_output(const fs::path& output, const fs::path& scene_path, co
           output.string(), value);
 }
 
+/// Whether --resume finds the run complete: then there is nothing to do.
+bool is_complete(const RunArguments& arguments, const fs::path& output, const SceneFile& scene) {
+  return arguments.resume && !fs::exists(state_path(output)) && kind_of(output) == InputKind::run &&
+         RunFile(output).scene_text() == scene_text(scene);
+}
+
 /// Checks every file that the run is to write, before any work. scene_path, output: as run() reads them.
 void check_outputs(const RunArguments& arguments, const SceneFile& scene, const fs::path& scene_path,
                    const std::string& output) {
@@ -145,6 +154,8 @@ RunOptions options_of(const RunArguments& arguments) {
   options.scene_file = arguments.scene;
   options.threads = arguments.threads;
   options.progress = true;
+  options.checkpoint = arguments.checkpoint;
+  options.resume = arguments.resume;
   options.error_map = arguments.error_map;
   if (!arguments.estimate_error.empty())
     options.second = arguments.estimate_error == second_solution_names.back() ? SecondSolution::finer
@@ -182,6 +193,13 @@ int run(const RunArguments& arguments) {
   const SceneFile scene = load_scene(scene_path, overrides);
   const std::string output = arguments.output.empty() ? scene_path.stem().string() + ".h5" : arguments.output;
 
+  if (is_complete(arguments, output, scene)) {
+    if (arguments.json)
+      print_json(nlohmann::ordered_json{{"output", output}, {"already_complete", true}});
+    else
+      print_row("run", output + " is complete already");
+    return 0;
+  }
   check_outputs(arguments, scene, scene_path, output);
 
   catch_interrupts();
@@ -260,6 +278,15 @@ void add_run_command(CLI::App& app, Command& chosen) {
       ->add_option("--threads", arguments->threads,
                    "Number of threads. Default: 0, all cores. The result does not depend on it")
       ->check(CLI::Range(0, 1024));
+  command
+      ->add_option("--checkpoint", arguments->checkpoint,
+                   "Keep the run's state in FILE.h5.state each time so many seconds have passed, between two "
+                   "ticks. With it --resume goes on after Ctrl-C, a time limit or a crash")
+      ->type_name("SECONDS")
+      ->check(positive_number());
+  command->add_flag("--resume", arguments->resume,
+                    "Go on from the state that --checkpoint kept; the result has the same bits. Without a "
+                    "state it begins at the start, so one command line does for a job and its requeue");
   CLI::Option* estimate =
       command
           ->add_flag(
@@ -287,6 +314,8 @@ void add_run_command(CLI::App& app, Command& chosen) {
       "  a tracing of your own, in any plane, 4 mm deep, in the middle of the bed:\n"
       "    sandstroke run scene.toml --stroke tracing.csv --png tracing.png --set stroke.plane=fit \\\n"
       "        --set stroke.depth=0.004 --set stroke.place=centre --set stroke.fit=0.8\n"
+      "  a long run in a Slurm job, which goes on where it was stopped when the job is requeued:\n"
+      "    sandstroke run scene.toml -o long.h5 --checkpoint 60 --resume\n"
       "All scene keys with units and defaults:  sandstroke help scene");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }

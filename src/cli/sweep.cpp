@@ -25,6 +25,7 @@ struct SweepArguments {
   fs::path plan, output;
   int jobs = 0;
   std::string shard;
+  double checkpoint = SweepOptions{}.checkpoint;  // s
   bool dry_run = false, json = false;
   SlurmArguments slurm;
 };
@@ -145,6 +146,7 @@ int sweep(const SweepArguments& arguments) {
   SweepOptions options;
   options.jobs = arguments.jobs;
   options.shard = parse_shard(arguments.shard);
+  options.checkpoint = arguments.checkpoint;
   SweepPlan plan = load_plan(arguments.plan);
   for (const std::string& note : plan.notes) spdlog::info("{}", note);
   catch_interrupts();
@@ -231,6 +233,14 @@ void add_sweep_command(CLI::App& app, Command& chosen) {
   CLI::Option* shard =
       command->add_option("--shard", arguments->shard, "Run only part I of N, for example 1/4")
           ->type_name("I/N");
+  command
+      ->add_option(
+          "--checkpoint", arguments->checkpoint,
+          "Keep the state of each simulation every so many seconds. The same command goes on from it "
+          "with the same bits, and so does a Slurm task that is requeued. 0: keep none")
+      ->type_name("SECONDS")
+      ->check(not_negative_number())
+      ->capture_default_str();
   command
       ->add_flag("--dry-run", arguments->dry_run,
                  "Run nothing but one point. Print the number of points, the first ones and the last, and "

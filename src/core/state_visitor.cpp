@@ -42,11 +42,11 @@ std::string StateKeeper::kept() && {
   return std::move(kept_);
 }
 
-StateRestorer::StateRestorer(std::string_view kept) {
+StateRestorer::StateRestorer(std::string_view kept, std::string_view name) {
   const std::size_t digits = hash_of("").size();
   if (kept.size() < digits ||
       hash_of(kept.substr(0, kept.size() - digits)) != kept.substr(kept.size() - digits))
-    throw_input_error("the state was cut off, or changed since it was kept");
+    throw_input_error("{}: was cut off, or changed since it was kept", name);
   kept_ = kept.substr(0, kept.size() - digits);
 }
 

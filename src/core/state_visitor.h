@@ -102,8 +102,8 @@ class StateKeeper : public StateVisitor {
 /// Puts a state back. Error: input, where the state has another field.
 class StateRestorer : public StateVisitor {
  public:
-  /// kept: of a StateKeeper. Error: input, if it was cut off or changed since.
-  explicit StateRestorer(std::string_view kept);
+  /// kept: of a StateKeeper. name: for messages. Error: input, if it was cut off or changed since.
+  explicit StateRestorer(std::string_view kept, std::string_view name = "the state");
   bool restores() const override { return true; }
   /// Error: input, if anything is left.
   void end() const;

@@ -34,6 +34,13 @@ Hdf5Handle space_of(const std::vector<hsize_t>& shape) {
           H5Sclose};
 }
 
+/// Rows go to the file at once, not when a cache is full, so that it is known before what a flush takes.
+Hdf5Handle row_by_row() {
+  Hdf5Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  H5Pset_chunk_cache(access, 0, 0, H5D_CHUNK_CACHE_W0_DEFAULT);
+  return access;
+}
+
 Hdf5Handle dataset_properties(const std::vector<hsize_t>& chunk, Compression compression) {
   Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(properties, false);  // the same content, the same bytes
@@ -69,9 +76,15 @@ void Hdf5Chunks::write(int row, int col, const double* numbers) {
     throw_write_error(where_);
 }
 
-Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, const OutputKind& kind)
+Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, const OutputKind& kind, Begins begins)
     : path_(path), kind_(kind), lock_(take_part(path, kind)) {
   prepare_hdf5();
+  if (begins == Begins::from_part) {
+    file_ = Hdf5Handle(H5Fopen(part_path(path).c_str(), H5F_ACC_RDWR, part_access()), H5Fclose);
+    flushed_ = true;  // it is never dropped
+    check(file_.valid(), "");
+    return;
+  }
   file_ = Hdf5Handle(H5Fcreate(part_path(path).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, part_access()), H5Fclose);
   try {
     check(file_.valid(), "");
@@ -193,14 +206,37 @@ Hdf5Column Hdf5Writer::growing(const std::string& dataset, hid_t type, int width
   std::vector<hsize_t> chunk = {rows_per_chunk};
   if (rank == 2) chunk.push_back(width);
   const Hdf5Handle space(H5Screate_simple(rank, shape, most), H5Sclose);
-  // Rows go to the file at once, not when a cache is full, so that it is known before what a flush takes.
-  const Hdf5Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
-  H5Pset_chunk_cache(access, 0, 0, H5D_CHUNK_CACHE_W0_DEFAULT);
   Hdf5Column column;
-  column.dataset_ = create(dataset, type, space, dataset_properties(chunk, Compression::none), access);
+  column.dataset_ = create(dataset, type, space, dataset_properties(chunk, Compression::none), row_by_row());
   column.where_ = path_.string() + ": " + dataset;
   column.width_ = width;
   return column;
+}
+
+Hdf5Column Hdf5Writer::shortened(const std::string& dataset, std::uint64_t rows) {
+  Hdf5Column column;
+  column.dataset_ = Hdf5Handle(H5Dopen2(file_, dataset.c_str(), row_by_row()), H5Dclose);
+  column.where_ = path_.string() + ": " + dataset;
+  const Hdf5Handle space(column.dataset_.valid() ? H5Dget_space(column.dataset_) : -1, H5Sclose);
+  hsize_t extent[2] = {0, 1};
+  const int rank = space.valid() ? H5Sget_simple_extent_ndims(space) : 0;
+  if (rank < 1 || rank > 2 || H5Sget_simple_extent_dims(space, extent, nullptr) != rank || extent[0] < rows)
+    throw_input_error("{}: has fewer rows than when the run's state was kept", column.where_);
+  column.width_ = extent[1];
+  column.count_ = extent[0] = rows;
+  check(H5Dset_extent(column.dataset_, extent) >= 0, dataset);
+  return column;
+}
+
+bool Hdf5Writer::has(const std::string& object) const {
+  for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {  // each group on the way
+    if (H5Lexists(file_, object.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
+void Hdf5Writer::remove(const std::string& object) {
+  if (has(object)) check(H5Ldelete(file_, object.c_str(), H5P_DEFAULT) >= 0, object);
 }
 
 Hdf5Chunks Hdf5Writer::chunks(const std::string& dataset, std::array<int, 2> shape, std::array<int, 2> chunk,

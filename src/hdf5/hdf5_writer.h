@@ -36,6 +36,7 @@ class Hdf5Column {
   void append(const Number* rows, std::size_t count) {
     extend(rows, count, hdf5_type(Number{}));
   }
+  std::uint64_t rows() const { return count_; }
 
  private:
   friend class Hdf5Writer;
@@ -77,8 +78,11 @@ constexpr OutputKind hdf5_output(std::string_view name, std::string_view mark, i
 /// file; input, if it must not replace what is there.
 class Hdf5Writer {
  public:
+  /// from_part: with all that PATH.part holds, which stays as it is until the next flush().
+  enum class Begins { anew, from_part };
   /// Without a kind it replaces nothing.
-  explicit Hdf5Writer(const std::filesystem::path& path, const OutputKind& kind = {});
+  explicit Hdf5Writer(const std::filesystem::path& path, const OutputKind& kind = {},
+                      Begins begins = Begins::anew);
   Hdf5Writer(const Hdf5Writer&) = delete;
   /// Without finish() the .part file stays, if anything was flushed into it.
   ~Hdf5Writer();
@@ -111,6 +115,11 @@ class Hdf5Writer {
   /// chunk: rows and columns, at most as many as the dataset has.
   Hdf5Chunks chunks(const std::string& dataset, std::array<int, 2> shape, std::array<int, 2> chunk,
                     double fill);
+  /// A column() of a file that is gone on with, cut off after so many rows. Error: input, if it has fewer.
+  Hdf5Column shortened(const std::string& dataset, std::uint64_t rows);
+  bool has(const std::string& object) const;
+  /// Removes a group or dataset, if it is there.
+  void remove(const std::string& object);
   void make_group(const std::string& group);
 
   /// From now on, all that was written so far can be read from the .part file, even if a kill hits a later

@@ -38,8 +38,16 @@ std::vector<CellRange> rectangles(const BedGeometry& bed, const std::vector<int>
 
 }  // namespace
 
-std::string FrameWriter::changed(int k) { return fmt::format("/surface/frame/{:06}/changed", k); }
-std::string FrameWriter::height(int k) { return fmt::format("/surface/frame/{:06}/height", k); }
+namespace {
+
+constexpr const char *frames_group = "/surface/frame", *all_frames = "/surface/frames";
+
+std::string frame(int k) { return fmt::format("{}/{:06}", frames_group, k); }
+
+}  // namespace
+
+std::string FrameWriter::changed(int k) { return frame(k) + "/changed"; }
+std::string FrameWriter::height(int k) { return frame(k) + "/height"; }
 
 FrameWriter::FrameWriter(Hdf5GridWriter& file, const HeightField& bed) : file_(file), bed_(bed) {
   for (int slot = 0; slot < bed.allocated_tiles(); ++slot)
@@ -96,11 +104,33 @@ void FrameWriter::finish() {
   if (times_.empty()) return;
   std::vector<Hdf5GridWriter::Block> blocks;
   for (std::size_t k = 0; k < times_.size(); ++k) blocks.push_back({k, ".", height(static_cast<int>(k))});
-  const std::string frames = "/surface/frames";
+  const std::string frames = all_frames;
   file_.write_virtual(frames, {blocks.size()}, static_cast<std::size_t>(bed_.rows()),
                       static_cast<std::size_t>(bed_.cols()), blocks);
   file_.attach_scales(frames, {time_name, "/surface/y", "/surface/x"});
   file_.describe(frames, "m", "height of the sand over time");
+}
+
+void FrameWriter::visit_state(StateVisitor& state) {
+  std::vector<int> tiles, frames;  // of last_change_
+  for (const auto& [tile, k] : last_change_) {
+    tiles.push_back(tile);
+    frames.push_back(k);
+  }
+  state.list("frames.revisions", revisions_);
+  state.list("frames.changed_tiles", tiles);
+  state.list("frames.last_changes", frames);
+  state.list("frames.times", times_);
+  state.value("frames.shown", shown_);
+  if (!state.restores()) return;
+  last_change_.clear();
+  for (std::size_t i = 0; i < tiles.size(); ++i) last_change_[tiles[i]] = frames.at(i);
+  file_.remove(all_frames);
+  for (auto k = static_cast<int>(times_.size()); file_.has(frame(k)); ++k) file_.remove(frame(k));
+  if (times_.empty())
+    file_.remove(time_name);
+  else
+    time_ = file_.shortened(time_name, times_.size());
 }
 
 std::vector<XdmfStep> FrameWriter::steps(double end) const {

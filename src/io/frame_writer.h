@@ -27,6 +27,9 @@ class FrameWriter {
   /// Joins the frames into one array over time, if there are any.
   void finish();
 
+  /// When it is put back, later frames of the file are removed.
+  void visit_state(StateVisitor& state);
+
   /// All surfaces of the file, with the initial one, and the final one at `end` [s].
   std::vector<XdmfStep> steps(double end) const;
 

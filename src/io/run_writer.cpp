@@ -19,7 +19,8 @@ namespace sandstroke {
 namespace {
 
 constexpr std::chrono::milliseconds time_per_flush{500};  // what a killed run can lose
-constexpr const char* provenance = "/provenance";
+constexpr const char *provenance = "/provenance", *final_surface = "/surface/final",
+                     *error_surface = "/surface/error";
 constexpr double bytes_per_frame = 1800.0;  // at least, if nothing changes
 // The clock is read after so many rows, because a tick may take microseconds. No more rows are kept than a
 // chunk has.
@@ -101,12 +102,18 @@ double least_bytes(const Simulation& simulation) {
 }
 
 RunWriter::RunWriter(const std::filesystem::path& path, const Simulation& simulation,
-                     const ViewSettings& view, const std::string& stroke_hash, const std::string& scene_file)
+                     const ViewSettings& view, const std::string& stroke_hash, const std::string& scene_file,
+                     Hdf5Writer::Begins begins)
     : path_(path),
-      file_(path, output_kind(InputKind::run)),
+      file_(path, output_kind(InputKind::run), begins),
       keeps_trace_(simulation.scene().output.trace && simulation.scene().stroke),
       content_(simulation.trace_content()),
       frames_(file_, simulation.bed()) {
+  if (begins == Hdf5Writer::Begins::anew) begin(simulation, view, stroke_hash, scene_file);
+}
+
+void RunWriter::begin(const Simulation& simulation, const ViewSettings& view, const std::string& stroke_hash,
+                      const std::string& scene_file) {
   const HeightField& bed = simulation.bed();
   const std::string scene = scene_text({simulation.scene(), view});
   file_.attribute("/", "complete", false);
@@ -183,6 +190,27 @@ void RunWriter::on_frame(double time, const HeightField& surface) {
   write_in_time();
 }
 
+void RunWriter::visit_state(StateVisitor& state) {
+  if (!state.restores()) flush();
+  const auto rows_of = [](const std::vector<Hdf5Column>& columns) {
+    return columns.empty() ? std::uint64_t{0} : columns.front().rows();
+  };
+  std::uint64_t ticks = rows_of(tick_columns_), relaxations = rows_of(relaxation_columns_);
+  state.value("trace.rows", ticks);
+  state.value("relaxation.rows", relaxations);
+  if (state.restores()) {
+    if (keeps_trace_)
+      visit_trace(content_, [&](const FieldText& field, const auto&) {
+        tick_columns_.push_back(file_.shortened(std::string("/trace/") + field.name, ticks));
+      });
+    visit_relaxation_fields([&](const FieldText& field, const auto&) {
+      relaxation_columns_.push_back(file_.shortened(std::string("/relaxation/") + field.name, relaxations));
+    });
+    for (const char* later : {final_surface, error_surface, error_group}) file_.remove(later);
+  }
+  frames_.visit_state(state);
+}
+
 void RunWriter::end(const RunResult& result, const HeightField& surface) {
   flush();
   file_.attribute(provenance, "threads", result.threads);
@@ -193,10 +221,10 @@ void RunWriter::end(const RunResult& result, const HeightField& surface) {
   }
   frames_.finish();
   seconds_ = result.simulated_seconds;
-  write_surface("/surface/final", surface, "height of the sand at the end");
+  write_surface(final_surface, surface, "height of the sand at the end");
   if (result.furrow) {
-    file_.attribute("/surface/final", "furrow_depth", result.furrow->depth);
-    file_.attribute("/surface/final", "asked_depth", result.furrow->asked_depth);
+    file_.attribute(final_surface, "furrow_depth", result.furrow->depth);
+    file_.attribute(final_surface, "asked_depth", result.furrow->asked_depth);
   }
   file_.flush();
 }
@@ -205,7 +233,7 @@ void RunWriter::write_error(const ErrorEstimate& error, const HeightField* map) 
   file_.make_group(error_group);
   visit_error_fields(
       [&](const FieldText& field, const auto& of) { file_.attribute(error_group, field.name, of(error)); });
-  if (map) write_surface("/surface/error", *map, "estimated error of the height at the end");
+  if (map) write_surface(error_surface, *map, "estimated error of the height at the end");
 }
 
 void RunWriter::finish() {

@@ -24,12 +24,16 @@ class RunWriter : public SimulationObserver {
  public:
   /// view: how pictures of the run show the sand. For /provenance: the hash of the stroke, and the path of
   /// the scene's file; empty: none.
+  /// begins: from_part: a run that goes on from a state, whose visit_state() follows.
   RunWriter(const std::filesystem::path& path, const Simulation& simulation, const ViewSettings& view,
-            const std::string& stroke_hash, const std::string& scene_file = "");
+            const std::string& stroke_hash, const std::string& scene_file = "",
+            Hdf5Writer::Begins begins = Hdf5Writer::Begins::anew);
 
   void on_tick(const TickRecord& tick) override;
   void on_relaxation(const RelaxationRecord& relaxation) override;
   void on_frame(double time, const HeightField& surface) override;
+  /// What is kept is in the file by then; what came later is removed when it is put back.
+  void visit_state(StateVisitor& state) override;
 
   /// Writes the final surface and the furrow's depths. An interrupted run gets none and stays a .part file.
   void end(const RunResult& result, const HeightField& surface);
@@ -40,6 +44,8 @@ class RunWriter : public SimulationObserver {
 
  private:
   void write_surface(const std::string& dataset, const HeightField& surface, const std::string& meaning);
+  void begin(const Simulation& simulation, const ViewSettings& view, const std::string& stroke_hash,
+             const std::string& scene_file);
   void write_in_time();
   void write_rows();
   void flush();

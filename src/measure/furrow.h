@@ -26,6 +26,12 @@ class TipPathGatherer : public SimulationObserver {
  public:
   explicit TipPathGatherer(const Scene& scene) : device_(scene.device), radius_(tool_reach(scene.tool)) {}
   void on_tick(const TickRecord& tick) override;
+  void visit_state(StateVisitor& state) override {
+    state.list("path.points", path_.points);
+    state.list("path.pieces", path_.pieces);
+    state.list("path.asked", path_.asked);
+    state.value("path.in_contact", in_contact_);
+  }
   const TipPath& path() const { return path_; }
   /// The furrow of the run, between its initial and its final surface (measure_furrow); none if nothing was
   /// touched.

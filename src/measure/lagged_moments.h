@@ -10,6 +10,13 @@ namespace sandstroke {
 struct ForcePair {
   double time;                    ///< s
   Eigen::Vector3d run, recorded;  ///< N; recorded: NaN if unknown
+
+  template <class State>
+  void visit_state(State& state) {
+    state.value("time", time);
+    state.value("run", run);
+    state.value("recorded", recorded);
+  }
 };
 
 /// Sums over ticks that have a run's force a and a recorded one b.

@@ -12,6 +12,6 @@ struct Solution {
 
 /// Runs a scene from this surface, and measures the furrow that is left. Error: as Simulation.
 Solution solve(const Scene& scene, const HeightField& start, const std::optional<Stroke>& stroke = {},
-               Observers observers = {});
+               Observers observers = {}, const Checkpoints& checkpoints = {});
 
 }  // namespace sandstroke

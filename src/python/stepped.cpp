@@ -11,8 +11,9 @@
 #include <thread>
 
 #include "core/error.h"
-#include "io/kept_simulation.h"
+#include "python/kept_simulation.h"
 #include "io/scene_toml.h"
+#include "io/state_file.h"
 #include "io/surface_file.h"
 #include "python/arrays.h"
 #include "python/errors.h"
@@ -72,17 +73,18 @@ class Stepped {
   std::string state() {
     KeptSimulation kept{scene_text(scene().scene), folder_.string(), {}};
     kept.state = use([](SteppedSimulation& simulation) { return simulation.state(); });
-    return kept_bytes(kept);
+    return state_bytes(kept, simulation_state);
   }
   void set_state(const std::string& bytes) {
-    const KeptSimulation kept = kept_simulation(bytes, "the state");
-    check_same_scene(scene_text(scene().scene), kept.scene);
+    const auto kept = read_state<KeptSimulation>(bytes, simulation_state, "the state");
+    const std::string difference = scene_difference(scene_text(scene().scene), kept.scene, "simulation");
+    if (!difference.empty()) throw_input_error("the state is of another scene: {}", difference);
     use([&](SteppedSimulation& simulation) { simulation.set_state(kept.state); });
   }
-  void save(const std::filesystem::path& path) { write_text_file(path, state(), state_output); }
+  void save(const std::filesystem::path& path) { write_text_file(path, state(), simulation_state); }
   /// From state(). It needs no file of the surface that the simulation began with.
   static std::unique_ptr<Stepped> from_state(const std::string& bytes, const std::string& name) {
-    const KeptSimulation kept = kept_simulation(bytes, name);
+    const auto kept = read_state<KeptSimulation>(bytes, simulation_state, name);
     const SceneFile file = scene_from_text(kept.scene, name);
     if (!file.plugin_laws.plugin.empty())
       throw_input_error("{}: names a plugin, whose state no file can keep", name);

@@ -13,6 +13,7 @@
 #include "core/interrupt.h"
 #include "core/machine.h"
 #include "core/output_file.h"
+#include "core/version.h"
 #include "core/warning.h"
 #include "haptics/stroke_coverage.h"
 #include "haptics/stroke_plane.h"
@@ -21,6 +22,7 @@
 #include "import/import_stroke.h"
 #include "io/mesh_file.h"
 #include "io/plugin_file.h"
+#include "io/run_state.h"
 #include "io/run_writer.h"
 #include "io/scene_toml.h"
 #include "io/stroke_file.h"
@@ -134,6 +136,20 @@ PlacedStroke load_placed(const Scene& scene, const RunOptions& options) {
 
 }  // namespace
 
+namespace {
+
+/// Says of a run that keeps no state, before any work, why not. Error: input.
+void check_keeps_state(const Scene& scene) {
+  if (keeps_state(scene)) return;
+  if (scene.stroke)
+    throw_input_error(
+        "the state of a plugin's law is not known, so a run with one keeps none; leave --checkpoint and "
+        "--resume out");
+  spdlog::warn("the scene has no stroke, so the run keeps no state: it only relaxes the sand");
+}
+
+}  // namespace
+
 RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output, const RunOptions& options) {
   const WarningList given;
   const Scene scene = with_files(asked, options.scene_folder);
@@ -142,6 +158,8 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
 
+  if (options.checkpoint > 0.0 || options.resume) check_keeps_state(scene);
+  if (!options.resume && !output.empty()) check_no_state(output);
   const auto [stroke, stroke_name, stroke_hash] = load_placed(scene, options);
   if (options.second) second_scene(scene, *options.second);  // if this is refused, then before any work
   HeightField bed = options.surface ? *options.surface : load_surface(scene.bed, options.scene_folder);
@@ -160,8 +178,22 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
   }
   const std::string scene_file =
       options.scene_file.empty() ? "" : scene_file_entry(options.scene_file, output);
+  std::optional<StateFile> states;
+  Checkpoints checkpoints;
+  if (!output.empty()) {
+    const bool keeps = options.checkpoint > 0.0 || options.resume;
+    const std::string text = scene_text({scene, asked.view});
+    const std::string surface_hash = keeps ? content_hash(simulation.bed()) : "";
+    states.emplace(state_path(output),
+                   RunState{commit, text, stroke_hash, surface_hash, options.second.has_value()},
+                   options.checkpoint);
+    checkpoints = states->checkpoints(options.resume ? state_with_part(*states, output, text) : "");
+    if (checkpoints.from.empty()) states->remove();
+  }
   std::optional<RunWriter> writer;
-  if (!output.empty()) writer.emplace(output, simulation, asked.view, stroke_hash, scene_file);
+  if (!output.empty())
+    writer.emplace(output, simulation, asked.view, stroke_hash, scene_file,
+                   checkpoints.from.empty() ? Hdf5Writer::Begins::anew : Hdf5Writer::Begins::from_part);
   TipPathGatherer path(scene);
   std::optional<RunProgress> bar;
   Kept force(force_of);
@@ -172,13 +204,15 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
   if (simulation.trace_content().recorded_force) observers.push_back(&both_forces);
   if (options.second) observers.push_back(&force);
   if (options.onlooker) observers.push_back(&options.onlooker(simulation));
-  RunResult result = simulation.run(observers);
+  RunResult result = simulation.run(observers, checkpoints);
   result.threads = threads;
   result.recorded_force = force_agreement(both_forces.values);
   if (stroke) result.furrow = path.furrow(*start, simulation.bed());
   bar.reset();
   if (options.at_end) options.at_end(simulation, result);
   if (writer) writer->end(result, simulation.bed());
+  if (result.interrupted && states && states->exists())
+    spdlog::warn("its state is kept: --resume goes on from there");
   if (stroke)
     warn_if_any(WarningCode::force_theory,
                 make_device_force(scene)->theory_warning(scene, result.max_contact_speed));
@@ -195,6 +229,7 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
     result.warnings = given.warnings();
   }
   if (writer) writer->finish();
+  if (states) states->remove();
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/compensated_sum.h"
 #include "core/error.h"
+#include "core/hash.h"
 
 namespace sandstroke {
 namespace {
@@ -215,6 +216,18 @@ void HeightField::visit_state(StateVisitor& state) {
   }
   state.list("bed.disturbed", disturbed_);
   state.list("bed.tool_walls", tool_walls_);
+}
+
+std::string content_hash(const HeightField& bed) {
+  ContentHash hash;
+  const std::vector<double> untouched = bed.some_untouched();
+  hash.add(untouched.data(), untouched.size() * sizeof(double));
+  for (int slot = 0; slot < bed.allocated_tiles(); ++slot) {
+    const int tile = bed.tile_of(slot);
+    hash.add(&tile, sizeof tile);
+    hash.add(bed.tile_heights(slot), HeightField::tile_area * sizeof(double));
+  }
+  return hash.text();
 }
 
 bool same_where_untouched(const HeightField& one, const HeightField& other) {

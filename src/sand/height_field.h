@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/shared_until_written.h"
@@ -136,6 +137,8 @@ class HeightField : public BedGeometry {
   /// rule is another one.
   void visit_state(StateVisitor& state);
 
+  /// Heights [m] of some cells by the rule, which tell it from other ones.
+  std::vector<double> some_untouched() const;
   HeightGrid grid() const;
   /// sum(h) dx^2 [m^3], compensated. Tiles that are not allocated cost nothing where they are level.
   double volume() const;
@@ -174,8 +177,6 @@ class HeightField : public BedGeometry {
     return (r % tile_side) * tile_side + c % tile_side;
   }
   int make_tile(int tile);
-  /// Heights [m] of some cells by the rule, which tell it from other ones.
-  std::vector<double> some_untouched() const;
   /// The cells of a tile's row that lie beyond the bed's wall.
   std::uint64_t beyond_wall(int tile, int row_in_tile) const;
 
@@ -186,6 +187,9 @@ class HeightField : public BedGeometry {
   std::vector<int> disturbed_;
   std::vector<RowCells> tool_walls_;
 };
+
+/// The hash of all heights: of allocated tiles, and of some cells that the rule gives.
+std::string content_hash(const HeightField& bed);
 
 /// Whether two beds of one shape are known to have the same heights where neither has an allocated tile.
 bool same_where_untouched(const HeightField& one, const HeightField& other);

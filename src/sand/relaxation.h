@@ -60,6 +60,19 @@ struct RelaxationOutcome {
 
   /// Adds the next relaxation: counts and volumes add up, residual and converged become the next one's.
   void add(const RelaxationOutcome& next);
+
+  template <class State>
+  void visit_state(State& state) {
+    state.value("passes", passes);
+    state.value("super_steps", super_steps);
+    state.value("rejected_stages", rejected_stages);
+    state.value("residual", residual);
+    state.value("moved_volume", moved_volume);
+    state.value("cells_visited", cells_visited);
+    state.value("tiles_active_max", tiles_active_max);
+    state.value("wake_ups", wake_ups);
+    state.value("converged", converged);
+  }
 };
 
 /// Returns the bed after the passes so far. Call it only if needed, since it copies all sand that moves.

@@ -280,6 +280,15 @@ struct FollowedSand {
   double asked_force = 0.0, force = 0.0;  ///< N, repulse
 
   void add(double asked, double reached, double force_asked, double force_reached);
+
+  template <class State>
+  void visit_state(State& state) {
+    state.value("ticks", ticks);
+    state.value("asked_depth", asked_depth);
+    state.value("depth", depth);
+    state.value("asked_force", asked_force);
+    state.value("force", force);
+  }
 };
 
 /// The result of a whole run (`run --json`).
@@ -313,6 +322,23 @@ struct RunResult {
   std::optional<ErrorEstimate> error;            ///< if it was asked for
   std::optional<ForceAgreement> recorded_force;  ///< if the stroke was recorded with forces
   std::vector<Warning> warnings;                 ///< what makes the result doubtful
+
+  /// What a run adds up as it goes; the rest is known at its end.
+  template <class State>
+  void visit_state(State& state) {
+    state.value("ticks", ticks);
+    state.value("contact_ticks", contact_ticks);
+    state.value("relaxations", relaxations);
+    state.value("relaxation", relaxation);
+    state.value("volume_initial", volume_initial);
+    state.value("displaced_volume", displaced_volume);
+    state.value("max_depth", max_depth);
+    state.value("max_contact_speed", max_contact_speed);
+    state.value("nearest", nearest);
+    state.value("nearest_time", nearest_time);
+    state.value("least_beside", least_beside);
+    state.value("followed", followed);
+  }
 };
 
 }  // namespace sandstroke

@@ -21,12 +21,22 @@ class SandAtRest {
   /// Relaxes the copy, as its relaxer does in one turn.
   RelaxationOutcome relax() { return relaxer_->relax(copy_); }
   const HeightField& copy() const { return copy_; }
+  void visit_state(StateVisitor& state) {
+    copy_.visit_state(state);
+    relaxer_->visit_state(state);
+    state.list("at_rest.same", same_);
+  }
 
  private:
   /// Revisions of a tile when the copy had the bed's heights.
   struct Revisions {
     std::uint64_t bed, copy;
     bool operator==(const Revisions&) const = default;
+    template <class State>
+    void visit_state(State& state) {
+      state.value("bed", bed);
+      state.value("copy", copy);
+    }
   };
   Revisions revisions(const HeightField& bed, int tile) const {
     return {bed.tile_revision(tile), copy_.tile_revision(tile)};

@@ -22,6 +22,11 @@ class SandFollower {
   double asked_depth() const { return asked_depth_; }  ///< m below the sand, of the last hand
   /// Call this if the next call is not one tick after the last one.
   void restart() { rise_.reset(); }
+  template <class State>
+  void visit_state(State& state) {
+    state.value("follower.asked_depth", asked_depth_);
+    state.value("follower.rise", rise_);
+  }
 
  private:
   std::unique_ptr<Tool> tool_;

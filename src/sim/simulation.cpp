@@ -5,7 +5,6 @@
 
 #include "core/error.h"
 #include "core/interrupt.h"
-#include "core/stopwatch.h"
 #include "haptics/recorded_force.h"
 #include "rules/schedule.h"
 #include "sim/check_inside.h"
@@ -120,52 +119,76 @@ void Simulation::keep_frame(double time) {
   tell([&](auto& observer) { observer.on_frame(time, surface); });
 }
 
-void Simulation::run_stroke() {
+void Simulation::visit_state(StateVisitor& state) {
+  loop_.visit_state(state);
+  state.value("next_tick", next_tick_);
+  state.value("next_idle", next_idle_);
+  state.value("hand", hand_);
+  if (follower_) state.value("follower", *follower_);
+  double seconds = seconds_before_ + watch_.seconds();
+  state.value("seconds", seconds);
+  if (state.restores()) seconds_before_ = seconds;
+  state.value("result", result_);
+  for (SimulationObserver* observer : observers_) observer->visit_state(state);
+}
+
+void Simulation::run_stroke(const Checkpoints& checkpoints) {
   const double servo_rate = scene().device.servo_rate;
   const double begin = stroke_->start_time();
   const auto time_of = [&](std::int64_t tick) {
     return std::min(begin + static_cast<double>(tick) / servo_rate, stroke_->end_time());
   };
-  Hand hand = hand_at(begin);
   RecordedForce recorded(stroke_->stroke());
-  loop_.start(hand);
+  if (!checkpoints.from.empty()) {
+    StateRestorer restorer(checkpoints.from);
+    visit_state(restorer);
+    restorer.end();
+  } else {
+    hand_ = hand_at(begin);
+    loop_.start(hand_);
+    if (scene().output.frames > 0.0) tell([&](auto& observer) { observer.on_frame(0.0, bed()); });
+  }
 
   double time = 0.0;
   const std::function<void()> relax_now = [&] { relax(time); };
-  auto idle_next = idle_.begin();
-  if (scene().output.frames > 0.0) tell([&](auto& observer) { observer.on_frame(0.0, bed()); });
-  for (std::int64_t k = 0; k < ticks_ && !interrupted(); ++k) {
-    if (idle_next != idle_.end() && k == idle_next->begin) {
-      k = idle(*idle_next++);
+  for (std::int64_t k = next_tick_; k < ticks_ && !interrupted(); ++k) {
+    if (next_idle_ < std::ssize(idle_) && k == idle_[static_cast<std::size_t>(next_idle_)].begin) {
+      k = idle(idle_[static_cast<std::size_t>(next_idle_++)]);
       if (interrupted()) break;
       if (follower_) follower_->restart();
-      hand = hand_at(time_of(k));
-      loop_.start(hand);
+      hand_ = hand_at(time_of(k));
+      loop_.start(hand_);
     }
     time = static_cast<double>(k) / servo_rate;
     const double next_time = time_of(k + 1);
-    TickRecord record = tick(time, hand, next_time, relax_now);
+    TickRecord record = tick(time, hand_, next_time, relax_now);
     record.lifts = stroke_->lifts_between(begin + time, next_time);
     record.recorded_force = recorded.at(time);
 
     loop_.advance(record);
-    hand = record.next;
+    hand_ = record.next;
     account(record);
     tell([&](auto& observer) { observer.on_tick(record); });
     if (comes_due(k, servo_rate, scene().relaxation.rate)) relax(time);
     if (comes_due(k, servo_rate, scene().output.frames)) keep_frame(static_cast<double>(k + 1) / servo_rate);
     const double done = static_cast<double>(k + 1) / static_cast<double>(ticks_);
     tell([&](auto& observer) { observer.on_progress(done); });
+    next_tick_ = k + 1;
+    if (checkpoints.due && checkpoints.due() && !interrupted()) {
+      StateKeeper keeper;
+      visit_state(keeper);
+      checkpoints.keep(std::move(keeper).kept());
+    }
   }
   result_.simulated_seconds = static_cast<double>(result_.ticks) / servo_rate;
   result_.stroke = played_part(*stroke_);
 }
 
-RunResult Simulation::run(const Observers& observers) {
+RunResult Simulation::run(const Observers& observers, const Checkpoints& checkpoints) {
   observers_ = observers;
-  const Stopwatch watch;
+  watch_ = {};
   result_.volume_initial = bed().volume();
-  if (stroke_) run_stroke();
+  if (stroke_) run_stroke(checkpoints);
   if (!interrupted()) {
     loop_.lift();
     relax(result_.simulated_seconds);
@@ -181,7 +204,7 @@ RunResult Simulation::run(const Observers& observers) {
   if (result_.moved_volume > 0.0)
     result_.volume_drift = std::abs(result_.volume_final - result_.volume_initial) / result_.moved_volume;
   result_.device = loop_.device_result();
-  result_.wall_seconds = watch.seconds();
+  result_.wall_seconds = seconds_before_ + watch_.seconds();
   return result_;
 }
 

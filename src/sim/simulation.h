@@ -1,8 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
+#include "core/stopwatch.h"
 #include "sim/idle_ticks.h"
 #include "sim/run_result.h"
 #include "sim/sand_follower.h"
@@ -11,6 +14,13 @@
 #include "sim/tick_loop.h"
 
 namespace sandstroke {
+
+/// How a run keeps its state between ticks, and goes on from one. Both need a stroke.
+struct Checkpoints {
+  std::string from = {};           ///< a state to go on from; empty: it begins at the start
+  std::function<bool()> due = {};  ///< asked after each tick; empty: no state is kept
+  std::function<void(std::string state)> keep = {};
+};
 
 /// Runs the tick loop: hand, device, level, depth and force, displacement, and relaxation at its own rate.
 /// After the last tick the bed is relaxed to equilibrium. Idle ticks take no time and are not reported;
@@ -32,11 +42,14 @@ class Simulation {
   TraceContent trace_content() const;
   double stroke_seconds() const { return stroke_ ? stroke_->stroke().duration() : 0.0; }
 
-  /// Runs once, to the end or until interrupted(). Error: unstable, if force or device leave all bounds.
-  RunResult run(const Observers& observers = {});
+  /// Runs once, to the end or until interrupted(). From a state it has the bits of the run that kept it, and
+  /// so have the observers, which must be of the same kinds. Error: unstable, if force or device leave all
+  /// bounds; input, if the state is of another scene, or where a plugin law has a part in one.
+  RunResult run(const Observers& observers = {}, const Checkpoints& checkpoints = {});
 
  private:
-  void run_stroke();
+  void run_stroke(const Checkpoints& checkpoints);
+  void visit_state(StateVisitor& state);
   /// The stages of the tick at whose end the stroke is at next_time (TickLoop::step).
   TickRecord tick(double time, const Hand& hand, double next_time, const std::function<void()>& relax);
   /// The stroke's hand at that time of the stroke, on the sand as it lies now.
@@ -58,6 +71,10 @@ class Simulation {
   std::optional<SandFollower> follower_;
   std::int64_t ticks_ = 0;  // of the stroke
   std::vector<TickRange> idle_;
+  std::int64_t next_tick_ = 0, next_idle_ = 0;  // the first one of each that is not played
+  Hand hand_;                                   // at the next tick's start
+  Stopwatch watch_;
+  double seconds_before_ = 0.0;  // of the run that kept the state
   Observers observers_;
   RunResult result_;
 };

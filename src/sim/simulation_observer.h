@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/state_visitor.h"
 #include "sand/height_field.h"
 #include "sim/run_result.h"
 
@@ -21,6 +22,8 @@ class SimulationObserver {
   virtual void on_progress(double /*fraction*/) {}
   /// passes: of the current relaxation, so far.
   virtual void on_pass(std::int64_t /*passes*/, const BedNow& /*bed_now*/) {}
+  /// What it knows of the run so far, between ticks: a run that goes on from a state puts it back.
+  virtual void visit_state(StateVisitor& /*state*/) {}
 };
 
 /// Observers, called in this order. They must outlive the run.
@@ -35,6 +38,11 @@ class Kept : public SimulationObserver {
     if (ticks_++ % every_ != 0) return;
     times.push_back(tick.time);
     values.push_back(value_(tick));
+  }
+  void visit_state(StateVisitor& state) override {
+    state.value("kept.ticks", ticks_);
+    state.list("kept.times", times);
+    state.list("kept.values", values);
   }
   std::vector<double> times;  // s
   std::vector<Value> values;

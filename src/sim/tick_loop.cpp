@@ -88,13 +88,20 @@ void TickLoop::visit_state(StateVisitor& state) {
   tool_force_->visit_state(state);
   device_.visit_state(state);
   relaxer_->visit_state(state);
+  bool shows_rest = at_rest_.has_value();
+  state.value("at_rest", shows_rest);
   if (state.restores()) at_rest_.reset();
+  if (!shows_rest) return;
+  if (!at_rest_) make_at_rest();
+  at_rest_->visit_state(state);
 }
+
+void TickLoop::make_at_rest() { at_rest_.emplace(bed_, make_relaxer(scene().relaxation, bed_.cell_size())); }
 
 const HeightField& TickLoop::bed_at_rest() {
   const RelaxationSettings& settings = scene().relaxation;
   if (!scene().plugin_laws.relaxation.empty() || (settings.rate == 0.0 && settings.way == 0.0)) return bed_;
-  if (!at_rest_) at_rest_.emplace(bed_, make_relaxer(settings, bed_.cell_size()));
+  if (!at_rest_) make_at_rest();
   sand_.make_walls(at_rest_->follow(bed_));
   at_rest_->relax();
   return at_rest_->copy();

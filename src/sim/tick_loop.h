@@ -61,6 +61,7 @@ class TickLoop {
   TickRecord read_device(const TickInput& tick) const;
   void turn_tool(const Hand& hand);
   void displace(TickRecord& record, const TickInput& tick);
+  void make_at_rest();
   void check_near(const TickRecord& record) const;
   void check_plugin_law(const char* key, const std::string& name);
 

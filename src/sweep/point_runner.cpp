@@ -27,6 +27,12 @@ class Feeler : public SimulationObserver {
       failure_ = unstable.what();
     }
   }
+  void visit_state(StateVisitor& state) override {
+    device_.visit_state(state);
+    force_.visit_state(state);
+    state.value("feeler.started", started_);
+    state.value("feeler.failure", failure_);
+  }
   /// Why the device stopped. Empty: it went to the end.
   const std::string& failure() const { return failure_; }
   DeviceResult result() const { return device_.result(); }
@@ -72,7 +78,8 @@ PointResult failed_point(PointVerdict verdict, const std::string& reason, std::s
 
 std::optional<SharedRunResult> run_shared(const std::vector<Scene>& scenes, const HeightField& bed,
                                           const Stroke* stroke, const std::vector<Metric>& metrics,
-                                          const HeightField* golden, std::optional<SecondSolution> second) {
+                                          const HeightField* golden, std::optional<SecondSolution> second,
+                                          const Checkpoints& checkpoints) {
   Scene scene = scenes.front();
   std::vector<Feeler> feelers;
   if (scene.device.model == DeviceModel::kinematic) {
@@ -85,7 +92,7 @@ std::optional<SharedRunResult> run_shared(const std::vector<Scene>& scenes, cons
   if (second && feelers.empty()) observers.push_back(&own_force);
   const std::optional<Stroke> played = stroke ? std::optional(*stroke) : std::nullopt;
   try {
-    auto [surface, sand] = solve(scene, bed, played, observers);
+    auto [surface, sand] = solve(scene, bed, played, observers, checkpoints);
     if (sand.interrupted) return std::nullopt;
     SlopeMeasures slopes;
     if (wants(metrics, Metric::slopes)) slopes = measure_slopes(bed, surface, scene.relaxation);

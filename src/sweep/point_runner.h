@@ -26,6 +26,7 @@ struct SharedRunResult {
 std::optional<SharedRunResult> run_shared(const std::vector<Scene>& scenes, const HeightField& bed,
                                           const Stroke* stroke, const std::vector<Metric>& metrics,
                                           const HeightField* golden,
-                                          std::optional<SecondSolution> second = {});
+                                          std::optional<SecondSolution> second = {},
+                                          const Checkpoints& checkpoints = {});
 
 }  // namespace sandstroke

@@ -1,5 +1,6 @@
 #include "sweep/run_sweep.h"
 
+#include <spdlog/spdlog.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
@@ -20,6 +21,7 @@
 #include "core/version.h"
 #include "io/png_file.h"
 #include "io/run_file.h"
+#include "io/run_state.h"
 #include "io/scene_toml.h"
 #include "measure/stroke_depth.h"
 #include "sim/tool_fit.h"
@@ -44,6 +46,12 @@ CellRange stroke_cells(const SceneFile& scene, const HeightField& bed, const Swe
   return cells_under(tips, tool_reach(scene.tool), bed, bed.highest());
 }
 
+/// The state to go on from. Empty: there is none, or not of this simulation, which begins at its start.
+std::string state_or_start(const StateFile& states) try { return states.kept(); } catch (const Error& other) {
+  spdlog::warn("{}", other.what());
+  return "";
+}
+
 }  // namespace
 
 std::vector<PointGroup> Shard::among(const std::vector<PointGroup>& groups) const {
@@ -57,6 +65,7 @@ std::vector<PointGroup> Shard::among(const std::vector<PointGroup>& groups) cons
 struct Sweep::Work {
   std::vector<PointGroup> groups;  // the groups to run
   std::size_t points = 0;          // the number of points in them
+  double checkpoint = 0.0;         // s
   std::function<void(double)> progress;
 
   std::atomic<std::size_t> next = 0;
@@ -168,7 +177,7 @@ SweepManifest Sweep::manifest() const {
   return m;
 }
 
-bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>& points,
+bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>& points, double checkpoint,
                       ChangePainter& painter, const std::function<void(const PointResult&)>& written) {
   const std::size_t metrics = folder.metrics().size();
   const auto write = [&](std::size_t point, const PointResult& result, const std::string& scene,
@@ -205,9 +214,17 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
     if (is_of_the_machine(error)) throw;
     return refuse(error.what());
   }
+  std::string scenes_text;
+  for (const SceneFile& scene : scenes) scenes_text += scene_text(scene);
+  StateFile states(
+      folder.state_file(points.front()),
+      {commit, scenes_text, stroke ? stroke->hash : "", content_hash(*bed), plan_.second.has_value()},
+      checkpoint);
+  const bool keeps = keeps_state(scenes.front());
   const std::optional<SharedRunResult> result =
       run_shared({scenes.begin(), scenes.end()}, *bed, stroke ? &stroke->stroke : nullptr, folder.metrics(),
-                 golden_ ? &*golden_ : nullptr, plan_.second);
+                 golden_ ? &*golden_ : nullptr, plan_.second,
+                 keeps ? states.checkpoints(state_or_start(states)) : Checkpoints{});
   if (!result) return false;
   if (stroke) {
     const Scene& scene = scenes.front();
@@ -233,6 +250,7 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
     write(points[i], result->points[i], scene_text(scenes[i]), surface ? kept : SweepFolder::Surface{});
     if (surface && plan_.keep_surface && !kept.same_as) kept.same_as = points[i];
   }
+  states.remove();
   return true;
 }
 
@@ -242,7 +260,7 @@ void Sweep::work_through(const SweepFolder& folder, Work& work) {
     const std::size_t mine = work.next++;
     if (mine >= work.groups.size()) return;
     try {
-      const bool simulated = run_group(folder, work.groups[mine], painter,
+      const bool simulated = run_group(folder, work.groups[mine], work.checkpoint, painter,
                                        [&](const PointResult& result) { work.count(result); });
       const std::scoped_lock lock(work.mutex);
       work.simulations += simulated;
@@ -259,6 +277,7 @@ SweepCounters Sweep::run(const SweepFolder& folder, const SweepOptions& options)
   SweepCounters counters;
   Work work;
   work.progress = options.progress;
+  work.checkpoint = options.checkpoint;
   const fs::path lock_path =
       folder.path() / "points" / fmt::format(".shard-{}-of-{}", options.shard.index, options.shard.of);
   const std::optional<FileLock> lock = FileLock::try_take(lock_path);
@@ -314,7 +333,8 @@ Sweep::Estimate Sweep::estimate() {
   const PointGroup& group = groups_[measured];
   const PointGroup run(group.begin(),
                        group.begin() + std::min<std::ptrdiff_t>(plan_.second ? 1 : 2, std::ssize(group)));
-  run_group(folder, run, painter, [](const PointResult&) {});
+  constexpr double no_checkpoint = 0.0;
+  run_group(folder, run, no_checkpoint, painter, [](const PointResult&) {});
   Estimate estimate;
   // Points do not share second solutions.
   estimate.seconds =

@@ -24,6 +24,7 @@ struct Shard {
 struct SweepOptions {
   int jobs = 0;  ///< number of cores and of simulations at a time; 0: all cores
   Shard shard;
+  double checkpoint = 60.0;  ///< s, after which a simulation's state is kept again
   std::function<void(double)> progress = [](double) {};  ///< gets the fraction of the points that is done
 };
 
@@ -84,9 +85,9 @@ class Sweep {
   /// Takes group after group from `work` and runs it.
   void work_through(const SweepFolder& folder, Work& work);
   /// Runs these points of a group and writes their files; calls `written` after each. Stops when
-  /// interrupted(). Returns true if it ran a simulation.
-  bool run_group(const SweepFolder& folder, const std::vector<std::size_t>& points, ChangePainter& painter,
-                 const std::function<void(const PointResult&)>& written);
+  /// interrupted(). checkpoint [s]: as in SweepOptions. Returns true if it ran a simulation.
+  bool run_group(const SweepFolder& folder, const std::vector<std::size_t>& points, double checkpoint,
+                 ChangePainter& painter, const std::function<void(const PointResult&)>& written);
 
   SweepPlan plan_;
   SweepInputs inputs_;

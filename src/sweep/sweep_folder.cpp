@@ -207,6 +207,10 @@ fs::path SweepFolder::picture_file(std::size_t point) const {
   return path_ / "points" / fmt::format("{:06}.png", point);
 }
 
+fs::path SweepFolder::state_file(std::size_t point) const {
+  return path_ / "points" / fmt::format("{:06}.state", point);
+}
+
 fs::path SweepFolder::surface_file(std::size_t point) const {
   const Hdf5Reader file(point_file(point));
   if (!file.has_attribute("/", surface_in)) return point_file(point);

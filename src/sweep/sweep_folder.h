@@ -40,6 +40,7 @@ void refuse_link(const std::filesystem::path& folder);
 ///                         /scene: the resolved scene; /surface (ny, nx) m, if kept, unless the attribute
 ///                         surface_in names another file in points/ with the same
 ///   points/000042.png     its picture, if kept; written before the .h5
+///   points/000042.state   of a simulation that is under way, or was stopped (io/run_state.h)
 ///   sweep.h5 .csv .html   written by collect()
 class SweepFolder {
  public:
@@ -58,6 +59,7 @@ class SweepFolder {
 
   std::filesystem::path point_file(std::size_t point) const;
   std::filesystem::path picture_file(std::size_t point) const;
+  std::filesystem::path state_file(std::size_t point) const;
   /// The file whose /surface is that of a point with a result. Error: io, input, where the point cannot be
   /// read, or its surface's file is missing.
   std::filesystem::path surface_file(std::size_t point) const;

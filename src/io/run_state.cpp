@@ -1,0 +1,96 @@
+#include "io/run_state.h"
+
+#include <spdlog/spdlog.h>
+
+#include <limits>
+#include <utility>
+
+#include "core/error.h"
+#include "core/input_file.h"
+#include "io/run_file.h"
+#include "io/state_file.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& why) {
+  throw_input_error(
+      "{}: {}; give what the run began with, or leave --resume out and begin again with --overwrite",
+      path.string(), why);
+}
+
+}  // namespace
+
+bool keeps_state(const Scene& scene) {
+  const PluginLawSettings& laws = scene.plugin_laws;
+  return scene.stroke && laws.relaxation.empty() && laws.displacement.empty() && laws.force.empty();
+}
+
+fs::path state_path(const fs::path& run_file) {
+  fs::path path = run_file;
+  path += ".state";
+  return path;
+}
+
+void check_no_state(const fs::path& run_file) {
+  const fs::path state = state_path(run_file);
+  try {
+    check_replaceable(state, irreplaceable(run_state_output));
+  } catch (const Error&) {
+    throw_input_error(
+        "{}: keeps the state of a run that was stopped; go on with --resume, or begin again with --overwrite",
+        state.string());
+  }
+}
+
+std::string StateFile::kept() const {
+  if (!exists()) return "";
+  const std::string bytes = read_text_file(path_, std::numeric_limits<std::size_t>::max());
+  auto kept = read_state<RunState>(bytes, run_state_output, path_.string());
+  if (kept.commit != run_.commit)
+    refuse(path_, fmt::format("was kept by the build {}, and this is {}, whose numbers may be others",
+                              kept.commit, run_.commit));
+  if (const std::string difference = scene_difference(run_.scene, kept.scene, "scene"); !difference.empty())
+    refuse(path_, "is of another scene: " + difference);
+  if (kept.stroke_hash != run_.stroke_hash) refuse(path_, "was kept with another stroke");
+  if (kept.surface_hash != run_.surface_hash) refuse(path_, "was kept with another starting surface");
+  if (kept.estimates_error != run_.estimates_error)
+    refuse(path_, fmt::format("was kept {} --estimate-error", kept.estimates_error ? "with" : "without"));
+  return std::move(kept.state);
+}
+
+Checkpoints StateFile::checkpoints(std::string from) {
+  Checkpoints checkpoints{std::move(from)};
+  if (seconds_ == 0.0) return checkpoints;
+  checkpoints.due = [this] { return since_.seconds() >= seconds_; };
+  checkpoints.keep = [this](std::string state) { keep(std::move(state)); };
+  return checkpoints;
+}
+
+void StateFile::keep(std::string state) {
+  run_.state = std::move(state);
+  write_text_file(path_, state_bytes(run_, run_state_output), run_state_output);
+  run_.state.clear();
+  since_ = {};
+}
+
+void StateFile::remove() const {
+  std::error_code ignored;  // it is not needed any more, and does no harm
+  fs::remove(path_, ignored);
+}
+
+std::string state_with_part(const StateFile& file, const fs::path& run_file, const std::string& scene_text) {
+  std::string state = file.kept();
+  const fs::path part = part_path(run_file);
+  if (state.empty())
+    spdlog::info("{}: no state was kept; the run begins at its start", run_file.string());
+  else if (!fs::exists(part))
+    refuse(state_path(run_file), fmt::format("goes with {}, which is not there", part.string()));
+  else if (RunFile(part).scene_text() != scene_text)
+    refuse(state_path(run_file), fmt::format("goes with {}, which is of another scene", part.string()));
+  return state;
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/output_file.h"
+#include "core/stopwatch.h"
+#include "sim/simulation.h"
+
+namespace sandstroke {
+
+/// The state of a run in the middle of its stroke, and what it belongs to.
+struct RunState {
+  std::string commit;  ///< of the program
+  std::string scene;   ///< TOML; of a sweep's simulation: those of its points
+  std::string stroke_hash, surface_hash;
+  bool estimates_error = false;
+  std::string state = {};  ///< of the Simulation and its observers
+
+  template <class State>
+  void visit_state(State& visitor) {
+    visitor.value("commit", commit);
+    visitor.value("scene", scene);
+    visitor.value("stroke_hash", stroke_hash);
+    visitor.value("surface_hash", surface_hash);
+    visitor.value("estimates_error", estimates_error);
+    visitor.value("state", state);
+  }
+};
+
+inline constexpr OutputKind run_state_output{"a run's state", "sandstroke run state 1\n"};
+
+/// False for a scene without a stroke, whose sand only relaxes, and for one with a plugin's law, whose state
+/// is not known.
+bool keeps_state(const Scene& scene);
+
+/// The file beside a run file that keeps the run's state until it is complete: PATH.state.
+std::filesystem::path state_path(const std::filesystem::path& run_file);
+
+/// Refuses to begin a run again that can go on. Error: input.
+void check_no_state(const std::filesystem::path& run_file);
+
+/// The file of a run's state, written again each `seconds`. A kill leaves the one before.
+class StateFile {
+ public:
+  /// run: its own state is empty. seconds: 0: it keeps none.
+  StateFile(std::filesystem::path path, RunState run, double seconds)
+      : path_(std::move(path)), run_(std::move(run)), seconds_(seconds) {}
+  /// The state that the file keeps; empty: there is no file. Error: input, naming what differs, if it is of
+  /// another run; io.
+  std::string kept() const;
+  bool exists() const { return std::filesystem::exists(path_); }
+  /// For a simulation that goes on from this state. They use this object.
+  Checkpoints checkpoints(std::string from);
+  void remove() const;
+
+ private:
+  void keep(std::string state);
+
+  std::filesystem::path path_;
+  RunState run_;
+  double seconds_;
+  Stopwatch since_;  // the last one was kept
+};
+
+/// The state of a run that goes with PATH.part. Empty: none was kept, so the run begins at its start. Error:
+/// as StateFile::kept(); input, if PATH.part is missing, or of another scene.
+std::string state_with_part(const StateFile& file, const std::filesystem::path& run_file,
+                            const std::string& scene_text);
+
+}  // namespace sandstroke
