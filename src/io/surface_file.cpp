@@ -27,8 +27,8 @@ void check_is_run(const std::filesystem::path& path) {
       path.string());
 }
 
-/// A run's final surface: area means of it, if the bed has other cells.
-HeightGrid final_heights(const RunFile& run, const BedSettings& bed) {
+/// A run's last surface: area means of it, if the bed has other cells.
+HeightGrid last_heights(const RunFile& run, const BedSettings& bed) {
   const double width = run.cell_size() * run.cols(), depth = run.cell_size() * run.rows();
   if (std::abs(width - bed.width) > 1e-9 * bed.width || std::abs(depth - bed.depth) > 1e-9 * bed.depth)
     throw_input_error("{}: is a bed of {} x {} cells, {} m by {} m, but bed.size = [{}, {}]; make them equal",
@@ -38,11 +38,15 @@ HeightGrid final_heights(const RunFile& run, const BedSettings& bed) {
     spdlog::info(
         "{}: is a run file, whose heights stay: bed.surface.low, high, scale and nodata are for maps",
         run.name());
-  if (run.rows() == bed.rows && run.cols() == bed.cols) return run.final();
+  const bool same_cells = run.rows() == bed.rows && run.cols() == bed.cols;
+  if (same_cells && run.has_final()) return run.final();
+  const LastSurface last = last_surface(run);
+  if (!run.has_final())
+    spdlog::warn("{}: the run was cut off; the bed begins with its {}", run.name(), last.name);
+  if (same_cells) return last.surface.grid();
   spdlog::info("{}: {} x {} cells fitted to {} x {} cells of {:.4g} m", run.name(), run.cols(), run.rows(),
                bed.cols, bed.rows, bed.cell_size());
-  const HeightField final = run.final_bed();
-  return HeightGrid::NullaryExpr(bed.rows, bed.cols, CellMeans(final, bed.rows, bed.cols));
+  return HeightGrid::NullaryExpr(bed.rows, bed.cols, CellMeans(last.surface, bed.rows, bed.cols));
 }
 
 }  // namespace
@@ -69,7 +73,7 @@ HeightField load_surface(const BedSettings& settings, const std::filesystem::pat
     heights = heights_on_bed(*map, bed, path.string());
   } else {
     check_is_run(path);
-    heights = final_heights(RunFile(path), bed);
+    heights = last_heights(RunFile(path), bed);
     if (!heights.isFinite().all())
       throw_input_error("{}: holds heights that are not finite numbers; correct it", path.string());
   }

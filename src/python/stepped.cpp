@@ -11,7 +11,6 @@
 #include <thread>
 
 #include "core/error.h"
-#include "python/kept_simulation.h"
 #include "io/scene_toml.h"
 #include "io/state_file.h"
 #include "io/surface_file.h"
@@ -19,6 +18,7 @@
 #include "python/errors.h"
 #include "python/interpreter_lock.h"
 #include "python/kept_run.h"
+#include "python/kept_simulation.h"
 #include "sim/stepped_simulation.h"
 
 namespace sandstroke {

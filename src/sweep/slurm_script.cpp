@@ -53,10 +53,34 @@ std::string file_argument(const fs::path& file) {
   return shell_quoted(file.string().starts_with('-') ? fs::path(".") / file : file);
 }
 
-/// The lines that replace the job's shell by the program, so that Slurm's signals reach it.
-std::string program_lines(const SlurmWork& work, const std::string& arguments) {
-  return fmt::format("cd {} || exit\nexec {} sweep {}\n", shell_quoted(work.start),
-                     shell_quoted(work.program), arguments);
+std::string command_line(const SlurmWork& work, const std::string& arguments) {
+  return fmt::format("{} sweep {}", shell_quoted(work.program), arguments);
+}
+
+/// The line that goes where the sweep was submitted.
+std::string folder_line(const SlurmWork& work) {
+  return fmt::format("cd {} || exit\n", shell_quoted(work.start));
+}
+
+/// The lines that run the program, and queue the job again if its time ended and it had got on. Slurm tells
+/// the shell, which tells the program: USR1 before the time ends, TERM where somebody cancels the job.
+std::string requeued_lines(const SlurmWork& work, const std::string& arguments) {
+  const std::string folder = file_argument(work.folder);
+  return folder_line(work) + fmt::format(R"(started={}/slurm/"$SLURM_JOB_ID".started
+touch "$started"
+{} &
+program=$!
+trap 'ended=yes; kill -USR1 $program' USR1
+trap 'kill -TERM $program' TERM
+wait $program
+code=$?
+while kill -0 $program 2> /dev/null; do wait $program; code=$?; done
+got_on=$(find {}/points -newer "$started" | head -n 1)
+rm -f "$started"
+if [ "$ended" ] && [ $code -gt 128 ] && [ "$got_on" ]; then scontrol requeue "$SLURM_JOB_ID"; fi
+exit $code
+)",
+                                         folder, command_line(work, arguments), folder);
 }
 
 }  // namespace
@@ -82,24 +106,25 @@ std::string array_script(const SlurmOptions& options, const SlurmWork& work, con
       fmt::format(R"({} -o {} --shard "$SLURM_ARRAY_TASK_ID"/{} --jobs "$SLURM_CPUS_PER_TASK")",
                   file_argument(work.plan), file_argument(work.folder), of);
   return fmt::format(R"(#!/bin/sh
-# Each task runs what is missing of its part of the sweep; any of them may run again.
+# Each task runs what is missing of its part of the sweep. A task whose time ends is queued again, and goes on.
 #SBATCH --job-name=sandstroke
 #SBATCH --array={}
 #SBATCH --cpus-per-task={}
 #SBATCH --requeue
-#SBATCH --signal=B:TERM@30
+#SBATCH --signal=B:USR1@30
 {}{}{})",
                      array_text(tasks), options.cpus_per_task, log_lines(work, "%A_%a.log"),
-                     resource_lines(options), program_lines(work, arguments));
+                     resource_lines(options), requeued_lines(work, arguments));
 }
 
 std::string collect_script(const SlurmOptions& options, const SlurmWork& work) {
-  return fmt::format(R"(#!/bin/sh
+  return fmt::format(
+      R"(#!/bin/sh
 # Collects the sweep when its tasks have ended, however they did.
 #SBATCH --job-name=sandstroke-collect
 {}{}{})",
-                     log_lines(work, "collect_%j.log"), resource_lines(options),
-                     program_lines(work, "collect " + file_argument(work.folder)));
+      log_lines(work, "collect_%j.log"), resource_lines(options),
+      folder_line(work) + "exec " + command_line(work, "collect " + file_argument(work.folder)) + "\n");
 }
 
 }  // namespace sandstroke

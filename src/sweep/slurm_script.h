@@ -31,7 +31,7 @@ int default_tasks(std::size_t simulations, int cpus_per_task);
 std::string array_text(const std::vector<int>& tasks);
 
 /// The script of the job array. Task I runs the missing points of shard I/of. A task that Slurm requeues
-/// starts again and finds its points. Slurm signals a task half a minute before its time ends, and it stops.
+/// goes on. Slurm signals a task half a minute before its time ends, and it stops.
 /// Error: input, if an option or a folder's name cannot be written in a Slurm script.
 std::string array_script(const SlurmOptions& options, const SlurmWork& work, const std::vector<int>& tasks,
                          int of);

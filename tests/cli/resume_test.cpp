@@ -1,6 +1,7 @@
 // Runs that are stopped, and go on.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <nlohmann/json.hpp>
 
@@ -100,6 +101,22 @@ TEST_F(CliResume, AStateIsNeitherLostNorTakenForAnotherRuns) {
   refused({"-o", "a.h5", "--resume"}, "another stroke");
   EXPECT_EQ(run({"-o", "a.h5", "--overwrite"}).exit_code, 0);
   EXPECT_FALSE(fs::exists(folder / "a.h5.state"));
+}
+
+TEST_F(CliResume, ARunThatWasCutOffIsAStartAndItIsSaidWhich) {
+  stop(SIGKILL);
+  const std::vector<double> times = RunFile(folder / "a.h5.part").frame_times();
+  write_file(folder / "scene.toml",
+             "[bed]\nsize = [0.3, 0.2]\ncells = [600, 400]\nsurface.kind = \"file\"\nsurface.file = "
+             "\"a.h5.part\"\n");
+  const ProgramResult result = run({"-o", "b.h5"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find(fmt::format(
+                "a.h5.part: the run was cut off; the bed begins with its surface at {:.4g} s", times.back())),
+            std::string::npos)
+      << result.err;
+  const RunFile part(folder / "a.h5.part");
+  EXPECT_TRUE((RunFile(folder / "b.h5").initial() == last_surface(part).surface.grid()).all());
 }
 
 TEST_F(CliResume, ARunThatOnlyRelaxesSaysThatItKeepsNoState) {

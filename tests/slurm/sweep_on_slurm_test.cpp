@@ -198,6 +198,21 @@ TEST_F(SweepOnSlurm, KilledTasksAreRequeuedOrRunAgain) {
   expect_as_local("killed");
 }
 
+/// Slurm tells a task so half a minute before its time ends; here the signal comes from scancel.
+TEST_F(SweepOnSlurm, ATaskWhoseTimeEndsIsQueuedAgainAndGoesOn) {
+  const SlurmJobs jobs = submit("ended", {"--tasks", "1"});
+  ASSERT_TRUE(comes_true([&] { return some_point_done("ended", jobs.tasks[0]); }));
+  const std::string task = std::to_string(jobs.array) + "_1";
+  slurm({"scancel", "--batch", "--signal=USR1", task});
+  ASSERT_TRUE(comes_true([&] { return status("ended")["tasks"][0]["state"] == "requeued"; }))
+      << logs("ended");
+  EXPECT_GT(status("ended")["missing"], 0);
+  slurm({"scontrol", "update", "JobId=" + task, "StartTime=now+2"});
+  EXPECT_TRUE(comes_true([&] { return ended(jobs); }));
+  EXPECT_EQ(status("ended")["tasks"][0]["state"], "done") << logs("ended");
+  expect_as_local("ended");
+}
+
 TEST_F(SweepOnSlurm, WhatAKilledControllerLeavesIsFinishedHere) {
   const SlurmJobs jobs = submit("orphaned", {"--tasks", "4"});
   ASSERT_TRUE(comes_true([&] { return some_point_done("orphaned", jobs.tasks[0]); }));

@@ -89,7 +89,7 @@ TEST(SlurmScript, AsksForWhatTheOptionsSay) {
   for (const char* line :
        {"--array=1-3,7", "--cpus-per-task=4", "--mem=4G", "--time=1-02:00:00", "--partition=long",
         "--account=sand", "--qos=high", "--constraint=\"a&b\" --nice", "--requeue", "--open-mode=append",
-        "--signal=B:TERM@30", "--output=\"/home/me/out/slurm/%A_%a.log\""})
+        "--signal=B:USR1@30", "--output=\"/home/me/out/slurm/%A_%a.log\""})
     EXPECT_TRUE(has(lines, line));
 }
 
