@@ -41,6 +41,8 @@ pid_t process_of(long array, int task) {
   for (const fs::directory_entry& entry : fs::directory_iterator("/proc")) {
     const std::string name = entry.path().filename();
     if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    std::error_code gone;
+    if (fs::read_symlink(entry.path() / "exe", gone) != fs::canonical(SANDSTROKE_PROGRAM)) continue;
     const std::string environment = '\0' + read_file(entry.path() / "environ");
     const auto has = [&](const std::string& variable) {
       return environment.find('\0' + variable + '\0') != std::string::npos;
