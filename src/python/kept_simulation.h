@@ -20,7 +20,7 @@ struct KeptSimulation {
   }
 };
 
-inline constexpr OutputKind simulation_state{
-    "a simulation's state, as Simulation.save() or state() makes it", "sandstroke state 1\n"};
+inline constexpr OutputKind simulation_state{"a simulation's state, as Simulation.save() or state() makes it",
+                                             "sandstroke state 1\n"};
 
 }  // namespace sandstroke

@@ -12,8 +12,8 @@ def pictures(notebook):
     return sum("image/png" in output.get("data", {}) for cell in notebook.cells for output in cell.get("outputs", []))
 
 
-def test_there_are_three():
-    assert [path.stem for path in NOTEBOOKS] == ["control", "first-stroke", "sweep"]
+def test_there_are_four():
+    assert [path.stem for path in NOTEBOOKS] == ["control", "first-stroke", "planner", "sweep"]
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)

@@ -160,6 +160,48 @@ def test_a_state_of_another_scene_or_file_is_refused(small, tmp_path):
         sandstroke.Simulation.load(tmp_path / "none.state")
 
 
+@pytest.mark.parametrize("threads", [0, 1, 3])
+def test_many_are_stepped_at_once_with_the_bits_of_each(small, threads):
+    start = sandstroke.Simulation(small, settings={**RFT, "device.model": "dynamic"})
+    for k in range(30):
+        start.tick((-0.05 + 5e-4 * k, 0.0, -0.005))
+    sims, alone = [start.copy() for _ in range(6)], [start.copy() for _ in range(6)]
+    hands = np.random.default_rng(2).uniform(-1e-3, 1e-3, (6, 40, 3)) + (-0.03, 0.0, -0.005)
+    down = np.ones((6, 40), bool)
+    down[2, 10:20] = False
+    ticks = sandstroke.step_many(sims, hands, down=down, velocities=(0.01, 0.0, 0.0),
+                                 orientations=(0.0, 0.0, np.sin(0.1), np.cos(0.1)), threads=threads)
+    assert ticks.force.shape == (6, 40, 3) and ticks.depth.shape == ticks.contact.shape == (6, 40)
+    for i, one in enumerate(alone):
+        for k in range(40):
+            tick = one.tick(hands[i, k], (0.01, 0.0, 0.0), down=down[i, k],
+                            orientation=(0.0, 0.0, np.sin(0.1), np.cos(0.1)))
+            for name in ("time", "force", "sand_force", "torque", "depth", "level", "contact", "displaced_volume", "position"):
+                assert np.array_equal(getattr(ticks, name)[i, k], getattr(tick, name), equal_nan=True), name
+        assert np.array_equal(one.heights, sims[i].heights)
+    assert start.time == 0.03
+
+
+def test_what_many_cannot_do_is_said_with_its_number(small):
+    sims = [sandstroke.Simulation(small) for _ in range(3)]
+    hands = np.zeros((3, 5, 3)) - (0.0, 0.0, 0.004)
+    with pytest.raises(sandstroke.InputError, match="hands: give an array of 2 simulations x ticks x 3"):
+        sandstroke.step_many(sims[:2], hands)
+    with pytest.raises(sandstroke.InputError, match="down: does not fit 3 simulations x 5 ticks"):
+        sandstroke.step_many(sims, hands, down=[True, False])
+    with pytest.raises(sandstroke.InputError, match="number 2 is there twice"):
+        sandstroke.step_many([sims[0], sims[1], sims[0]], hands)
+    masked = np.ma.array(hands, mask=False)
+    masked[1, 2] = np.ma.masked
+    with pytest.raises(sandstroke.InputError, match="simulation 1: at 0.0020 s .* not a number"):
+        sandstroke.step_many(sims, masked)
+    assert [sim.time for sim in sims] == [0.005, 0.002, 0.005]
+    mine = sandstroke.Simulation(small, laws={"force": lambda depth, motion, tip, **numbers: (0.0, 0.0, 1.0)})
+    with pytest.raises(sandstroke.InputError, match="number 1 has a law that is a Python function"):
+        sandstroke.step_many([sims[0], mine], hands[:2])
+    assert sandstroke.step_many([], np.zeros((0, 4, 3))).force.shape == (0, 4, 3)
+
+
 def test_a_copy_with_a_law_of_ones_own_is_refused(small):
     def spring(depth, motion, tip, **numbers):
         return (0.0, 0.0, 100.0 * max(depth, 0.0))

@@ -5,7 +5,7 @@
     run.final                  # heights [m], a NumPy array of rows (along y) and columns (along x)
     run.trace["device_force"]  # on the hand in every tick [N]
 
-run, read, compare and render are functions; Simulation is a device that is stepped tick by tick. All numbers are in SI units. The results have the same bits as those of the command `sandstroke run`.
+run, read, compare and render are functions; Simulation is a device that is stepped tick by tick, step_many steps many at once. All numbers are in SI units. The results have the same bits as those of the command `sandstroke run`.
 """
 
 from ._arguments import Laws, Scene, SceneLike, StrokeLike
@@ -14,9 +14,9 @@ from ._picture import render
 from ._run import Comparison, Run, compare, read, run
 from ._sandstroke import Error, FileError, InputError, ResultWarning, Tick, UnstableError
 from ._sandstroke import version as __version__
-from ._simulation import Simulation
+from ._simulation import Simulation, Ticks, step_many
 
 __all__ = [
     "Comparison", "Error", "FileError", "InputError", "Laws", "ResultWarning", "Run", "Scene", "SceneLike", "Simulation", "StrokeLike", "Tick",
-    "UnstableError", "bench", "compare", "read", "render", "run", "stress",
+    "Ticks", "UnstableError", "bench", "compare", "read", "render", "run", "step_many", "stress",
 ]

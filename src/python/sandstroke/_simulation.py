@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import copy
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _sandstroke as _core
 from ._arguments import Array, Laws, Scene, SceneLike, with_laws
-from ._sandstroke import Tick
+from ._sandstroke import InputError, Tick
 
 
 class Simulation:
@@ -145,3 +147,44 @@ class Simulation:
 
     def __repr__(self) -> str:
         return f"<sandstroke.Simulation at {self.time:.4f} s>"
+
+
+@dataclass(frozen=True)
+class Ticks:
+    """The ticks of many simulations: arrays (simulation, tick), vectors (simulation, tick, 3). As in Tick."""
+
+    time: npt.NDArray[Any]
+    force: npt.NDArray[Any]
+    sand_force: npt.NDArray[Any]
+    torque: npt.NDArray[Any]
+    depth: npt.NDArray[Any]
+    level: npt.NDArray[Any]
+    contact: npt.NDArray[Any]
+    displaced_volume: npt.NDArray[Any]
+    position: npt.NDArray[Any]
+
+
+def step_many(simulations: Sequence[Simulation], hands: Array, *, velocities: Array | None = None,
+              down: Array | bool = True, orientations: Array | None = None, threads: int = 0) -> Ticks:
+    """Steps many simulations at once, such as copies of one: simulation i has the hand hands[i, k] [m] in tick k.
+
+    hands: an array (simulations, ticks, 3). velocities [m/s], orientations (4 numbers), down: as in
+    Simulation.tick(), for all ticks; an array of one tick or simulation counts for all. threads: 0: all cores. The
+    bits are those of tick(). Where a simulation fails, the others go on to the end; then its error is raised.
+    """
+    hands = np.asarray(np.ma.filled(hands, np.nan), dtype=float)
+    if hands.ndim != 3 or hands.shape[0] != len(simulations) or hands.shape[2] != 3:
+        raise InputError(f"hands: give an array of {len(simulations)} simulations x ticks x 3 numbers, not "
+                         f"{' x '.join(map(str, hands.shape))}")
+
+    def for_all(name: str, given: Array, width: tuple[int, ...], kind: type) -> Array:
+        try:
+            return np.broadcast_to(np.asarray(np.ma.filled(given, np.nan), dtype=kind), hands.shape[:2] + width)
+        except ValueError:
+            raise InputError(f"{name}: does not fit {hands.shape[0]} simulations x {hands.shape[1]} ticks") from None
+
+    fields = _core._step_many([one._stepped for one in simulations], hands, for_all("down", down, (), bool),
+                              None if velocities is None else for_all("velocities", velocities, (3,), float),
+                              None if orientations is None else for_all("orientations", orientations, (4,), float),
+                              threads)
+    return Ticks(**fields)
