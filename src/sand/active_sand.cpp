@@ -23,6 +23,7 @@ void ActiveSand::begin(HeightField& bed) {
     std::fill(numbers_.begin(), numbers_.end(), -1);
     joined_ = 0;
   }
+  tiles_.begin();
   cells_visited_ = 0;
   tiles_active_max_ = 0;
   wake_ups_before_ = activity_.wake_ups();
@@ -76,9 +77,12 @@ void ActiveSand::take_part(const HeightField& bed, int slot) {
   know_slots(slot + 1);
   if (numbers_[slot] >= 0) return;
   numbers_[slot] = static_cast<int>(joined_++);
-  if (tiles_.size() < joined_) tiles_.push_back(std::make_unique<RelaxedTile>());
+  if (tiles_.size() < joined_) tiles_.add();
   tile(slot).patch.begin(slot);
-  if (talus_factors_) load_slope_weights(bed.tile_of(slot), tile(slot).slope_weights);
+  if (talus_factors_)
+    load_slope_weights(bed.tile_of(slot), tile(slot).slope_weights);
+  else
+    tile(slot).slope_weights.reset();
 }
 
 void ActiveSand::load_slope_weights(int tile, std::unique_ptr<TilePatch>& weights) {
@@ -137,7 +141,7 @@ void ActiveSand::load_givers(const HeightField& bed, int slot, RowSpan rows, Flo
 
 void ActiveSand::write_back(HeightField& bed) const {
   parallel_for(joined_, work_ >= worth_threads_, [&](std::size_t i) {
-    tiles_[i]->patch.write_back(bed, activity_.seen(tiles_[i]->patch.slot()));
+    tiles_[i].patch.write_back(bed, activity_.seen(tiles_[i].patch.slot()));
   });
 }
 
@@ -145,7 +149,7 @@ void ActiveSand::end(HeightField& bed, RelaxationOutcome& outcome) {
   write_back(bed);
   work_ = work_per_tile * static_cast<std::int64_t>(joined_);
   parallel_for(joined_, work_ >= worth_threads_, [&](std::size_t i) {
-    TilePatch& patch = tiles_[i]->patch;
+    TilePatch& patch = tiles_[i].patch;
     const CellFlags& seen = activity_.seen(patch.slot());
     const RowSpan rows = row_span(seen);
     const RowSpan around{rows.begin - TilePatch::rim, rows.end + TilePatch::rim};
@@ -154,10 +158,11 @@ void ActiveSand::end(HeightField& bed, RelaxationOutcome& outcome) {
     measure_residuals(patch, seen);
   });
   for (std::size_t i = 0; i < joined_; ++i) {
-    numbers_[tiles_[i]->patch.slot()] = -1;
-    activity_.look_away(tiles_[i]->patch.slot());
+    numbers_[tiles_[i].patch.slot()] = -1;
+    activity_.look_away(tiles_[i].patch.slot());
   }
   joined_ = 0;
+  tiles_.end();
 
   outcome.residual = 0.0;
   for (const double residual : residuals_) outcome.residual = std::max(outcome.residual, residual);

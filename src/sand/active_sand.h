@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/borrowed_scratch.h"
 #include "core/compensated_sum.h"
 #include "core/copied.h"
 #include "core/parallel.h"
@@ -59,9 +60,9 @@ class ActiveSand {
   /// Each tile gets a number when it joins a relaxation, so that a stepper can keep data for it.
   std::size_t number_of(int slot) const { return static_cast<std::size_t>(numbers_[slot]); }
   std::size_t joined() const { return joined_; }  ///< how many have
-  RelaxedTile& tile_at(std::size_t number) { return *tiles_[number]; }
-  RelaxedTile& tile(int slot) { return *tiles_[number_of(slot)]; }
-  const RelaxedTile& tile(int slot) const { return *tiles_[number_of(slot)]; }
+  RelaxedTile& tile_at(std::size_t number) { return tiles_[number]; }
+  RelaxedTile& tile(int slot) { return tiles_[number_of(slot)]; }
+  const RelaxedTile& tile(int slot) const { return tiles_[number_of(slot)]; }
 
   /// Computes every active cell's gain in a pass. Returns the sum of outflows [m]. in_step(slot, tile)
   /// returns what a super-step does with a tile's flow (FlowInStep). In a super-step only cells within one of
@@ -129,7 +130,7 @@ class ActiveSand {
   TileActivity activity_;
 
   // Tiles of this relaxation, by number. Those beyond joined_ are left from earlier ones.
-  Scratch<std::vector<std::unique_ptr<RelaxedTile>>> tiles_;
+  BorrowedScratch<RelaxedTile> tiles_;
   std::size_t joined_ = 0;
   Scratch<std::vector<int>> numbers_;  // per slot; -1: takes no part, as all between relaxations
   // Residual of each group of cells, per slot, and the largest per slot, after the last relaxation that saw

@@ -82,6 +82,7 @@ class RklRelaxer : public SuperStepper {
     };
     double share = largest_share_ * progress.part_of_share;
     sand_.begin(bed);
+    tiles_.begin();
     if (!sand_.at_rest()) compute_flow(bed);
     while (goes_on()) {
       super_step(bed, share, told);
@@ -91,6 +92,7 @@ class RklRelaxer : public SuperStepper {
     if (!too_steep_) sand_.rest();
     outcome_.moved_volume = moved_.value() * bed.cell_area();
     sand_.end(bed, outcome_);
+    tiles_.end();
     return outcome_;
   }
 
@@ -112,7 +114,7 @@ class RklRelaxer : public SuperStepper {
                       (outcome_.passes >= part_.passes && sand_.active_cells() >= part_.awake_cells);
     return !sand_.at_rest() && too_steep_ && !ends && !interrupted();
   }
-  StepTile& tile(int slot) { return *tiles_[sand_.number_of(slot)]; }
+  StepTile& tile(int slot) { return tiles_[sand_.number_of(slot)]; }
 
   template <class Told>
   void super_step(HeightField& bed, double share, const Told& told) {
@@ -177,7 +179,7 @@ class RklRelaxer : public SuperStepper {
 
   /// Lets an active tile join the step, and adds its starting heights to the range.
   void take_in(const HeightField& bed, int slot) {
-    if (tiles_.size() < sand_.joined()) tiles_.push_back(std::make_unique<StepTile>());
+    if (tiles_.size() < sand_.joined()) tiles_.add();
     if (taken_in_ < sand_.joined()) {  // the tile is new in this relaxation
       ++taken_in_;
       tile(slot).step = -1;
@@ -245,7 +247,7 @@ class RklRelaxer : public SuperStepper {
   template <class Body>
   void for_tiles_in_step(const Body& body) {
     for (std::size_t number = 0; number < taken_in_; ++number)
-      if (tiles_[number]->step == step_) body(sand_.tile_at(number), *tiles_[number]);
+      if (tiles_[number].step == step_) body(sand_.tile_at(number), tiles_[number]);
   }
 
   /// Whether the last stage took any height out of the range of the starting ones.
@@ -270,8 +272,8 @@ class RklRelaxer : public SuperStepper {
   double largest_share_;
   ActiveSand sand_;
 
-  Scratch<std::vector<std::unique_ptr<StepTile>>> tiles_;  // by number in sand_
-  std::int64_t step_ = 0;                                  // which super-step this is
+  BorrowedScratch<StepTile> tiles_;  // by number in sand_
+  std::int64_t step_ = 0;            // which super-step this is
 
   // State of this relaxation, or of this part of it.
   Part part_{};

@@ -137,6 +137,7 @@ int main(int argc, char** argv) {
     add("cones", [&] { return in_child([&] { return measure_cones(options); }); });
     add("rough_beds", [&] { return in_child([&] { return measure_rough_beds(options); }); });
     add("levels", [&] { return in_child([&] { return measure_levels(options); }); });
+    add("clones", [&] { return in_child([&] { return measure_clones(options); }); });
     add("paper_law", [&] { return in_child([&] { return measure_paper_law(options); }); });
     add("sweeps", [&] { return in_child([&] { return measure_sweeps(options); }); });
     add("recording", [&] { return in_child([&] { return measure_recording(options); }); });

@@ -22,6 +22,7 @@ nlohmann::json measure_long_stroke(const BenchOptions& options);
 nlohmann::json measure_cones(const BenchOptions& options);
 nlohmann::json measure_rough_beds(const BenchOptions& options);
 nlohmann::json measure_levels(const BenchOptions& options);
+nlohmann::json measure_clones(const BenchOptions& options);
 nlohmann::json measure_paper_law(const BenchOptions& options);
 nlohmann::json measure_sweeps(const BenchOptions& options);
 nlohmann::json measure_recording(const BenchOptions& options);
