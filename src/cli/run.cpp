@@ -117,12 +117,6 @@ void check_default_output(const fs::path& output, const fs::path& scene_path, co
           output.string(), value);
 }
 
-/// Whether --resume finds the run complete: then there is nothing to do.
-bool is_complete(const RunArguments& arguments, const fs::path& output, const SceneFile& scene) {
-  return arguments.resume && !fs::exists(state_path(output)) && kind_of(output) == InputKind::run &&
-         RunFile(output).scene_text() == scene_text(scene);
-}
-
 /// Checks every file that the run is to write, before any work. scene_path, output: as run() reads them.
 void check_outputs(const RunArguments& arguments, const SceneFile& scene, const fs::path& scene_path,
                    const std::string& output) {
@@ -193,13 +187,6 @@ int run(const RunArguments& arguments) {
   const SceneFile scene = load_scene(scene_path, overrides);
   const std::string output = arguments.output.empty() ? scene_path.stem().string() + ".h5" : arguments.output;
 
-  if (is_complete(arguments, output, scene)) {
-    if (arguments.json)
-      print_json(nlohmann::ordered_json{{"output", output}, {"already_complete", true}});
-    else
-      print_row("run", output + " is complete already");
-    return 0;
-  }
   check_outputs(arguments, scene, scene_path, output);
 
   catch_interrupts();
@@ -210,6 +197,13 @@ int run(const RunArguments& arguments) {
       return view.emplace(simulation, fs::path(output).filename().string(), !arguments.no_open);
     };
   RunResult result = run_scene(scene, output, options);
+  if (result.already_complete) {
+    if (arguments.json)
+      print_json(nlohmann::ordered_json{{"output", output}, {"already_complete", true}});
+    else
+      print_row("run", output + " is complete already");
+    return draw(arguments, scene, output);
+  }
   std::vector<Warning> found;
   if (!result.interrupted) found = warnings_of_run(result, scene);
   result.warnings.insert(result.warnings.end(), found.begin(), found.end());
@@ -284,9 +278,10 @@ void add_run_command(CLI::App& app, Command& chosen) {
                    "ticks. With it --resume goes on after Ctrl-C, a time limit or a crash")
       ->type_name("SECONDS")
       ->check(positive_number());
-  command->add_flag("--resume", arguments->resume,
-                    "Go on from the state that --checkpoint kept; the result has the same bits. Without a "
-                    "state it begins at the start, so one command line does for a job and its requeue");
+  CLI::Option* resume = command->add_flag(
+      "--resume", arguments->resume,
+      "Go on from the state that --checkpoint kept; the result has the same bits. Without a "
+      "state it begins at the start, so one command line does for a job and its requeue");
   CLI::Option* estimate =
       command
           ->add_flag(
@@ -301,6 +296,7 @@ void add_run_command(CLI::App& app, Command& chosen) {
       "--view", arguments->view,
       "Wait until a page is open in a browser, then play the stroke in real time and show the sand live in "
       "it. Prints the address, and opens it on a desktop. The result is the same");
+  shown->excludes(resume);
   command->add_flag("--no-open", arguments->no_open, "Print the address of --view, but do not open it")
       ->needs(shown);
   command->add_flag(

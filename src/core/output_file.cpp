@@ -82,13 +82,25 @@ fs::path part_path(const fs::path& path) {
   return part;
 }
 
+namespace {
+
+[[noreturn]] void refuse_second_writer(const fs::path& path) {
+  throw_io_error("{}: another process is writing this file; wait for it, or choose another name",
+                 path.string());
+}
+
+}  // namespace
+
+void check_part_is_free(const fs::path& path) {
+  const fs::path part = part_path(path);
+  if (fs::is_regular_file(fs::symlink_status(part)) && !FileLock::try_take(part)) refuse_second_writer(path);
+}
+
 FileLock take_part(const fs::path& path, const OutputKind& kind) {
   check_replaceable(path, kind);
   const fs::path part = part_path(path);
   std::optional<FileLock> lock = FileLock::try_take(part);
-  if (!lock)
-    throw_io_error("{}: another process is writing this file; wait for it, or choose another name",
-                   path.string());
+  if (!lock) refuse_second_writer(path);
   check_part_replaceable(path, kind);
   std::error_code not_there, ignored;  // some file systems have no modes
   const fs::file_status replaced = fs::symlink_status(path, not_there);
@@ -161,16 +173,19 @@ void sync_folder_of(const fs::path& path) {
   close(descriptor);
 }
 
-void finish_part(const fs::path& path, const OutputKind& kind) {
-  const fs::path part = part_path(path);
-  // Puts the file on the disk before it gets its name: then it is complete even after a power failure.
-  const int file = open(part.c_str(), O_RDONLY | O_CLOEXEC);
+void sync_part(const fs::path& path) {
+  const int file = open(part_path(path).c_str(), O_RDONLY | O_CLOEXEC);
   const bool safe = file >= 0 && fsync(file) == 0;
   const std::string reason = std::strerror(errno);
   if (file >= 0) close(file);
   if (!safe)
     throw_io_error("{}: cannot be written ({}); free disk space or choose another place", path.string(),
                    reason);
+}
+
+void finish_part(const fs::path& path, const OutputKind& kind) {
+  const fs::path part = part_path(path);
+  sync_part(path);                // before it gets its name: then it is complete even after a power failure
   check_replaceable(path, kind);  // again: a file may have come there since
   std::error_code failure;
   fs::rename(part, path, failure);

@@ -72,6 +72,12 @@ std::filesystem::path beside(const std::filesystem::path& path, const std::strin
 /// Makes a file's new name, too, survive a power failure, if the file system can do that.
 void sync_folder_of(const std::filesystem::path& path);
 
+/// Writes PATH.part, as it is, through to the disk. Error: io.
+void sync_part(const std::filesystem::path& path);
+
+/// Error: io, if another process is writing PATH.part.
+void check_part_is_free(const std::filesystem::path& path);
+
 /// Writes a complete PATH.part through to the disk and renames it to PATH. Error: io; input, if somebody has
 /// put a file there that must not be replaced.
 void finish_part(const std::filesystem::path& path, const OutputKind& kind);

@@ -61,6 +61,20 @@ void Hdf5GridWriter::attach_scales(const std::string& dataset, const std::vector
   }
 }
 
+void Hdf5GridWriter::remove(const std::string& dataset, const std::vector<std::string>& scales) {
+  if (!has(dataset)) return;
+  {
+    const Hdf5Handle opened(H5Dopen2(file(), dataset.c_str(), H5P_DEFAULT), H5Dclose);
+    for (std::size_t i = 0; i < scales.size(); ++i) {
+      const Hdf5Handle scale(H5Dopen2(file(), scales[i].c_str(), H5P_DEFAULT), H5Dclose);
+      const auto axis = static_cast<unsigned>(i);
+      if (H5DSis_attached(opened, scale, axis) > 0)
+        check(H5DSdetach_scale(opened, scale, axis) >= 0, dataset);
+    }
+  }
+  remove(dataset);
+}
+
 void Hdf5GridWriter::write_scale(const std::string& dataset, const std::vector<double>& values,
                                  const std::string& units, const std::string& meaning) {
   constexpr std::size_t worth_packing = 4096;  // evenly spaced numbers shrink to a 20th

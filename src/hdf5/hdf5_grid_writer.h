@@ -28,6 +28,9 @@ class Hdf5GridWriter : public Hdf5Writer {
   void make_scale(const std::string& dataset);
   /// Gives a dataset's axes their scales, one per dimension.
   void attach_scales(const std::string& dataset, const std::vector<std::string>& scales);
+  /// Removes a dataset, if it is there, from its scales, too.
+  void remove(const std::string& dataset, const std::vector<std::string>& scales);
+  using Hdf5Writer::remove;
 
   /// Writes a coordinate: a dataset of rank 1 that is the scale of the axis with its name.
   void write_scale(const std::string& dataset, const std::vector<double>& values, const std::string& units,

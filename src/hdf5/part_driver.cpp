@@ -139,7 +139,6 @@ bool PartFile::take_appended() {
   if (checksum != seal.checksum) return true;
   pages = std::move(appended);
   end = start;
-  committed = std::max(first_bytes, end);
   return true;
 }
 
@@ -234,7 +233,9 @@ H5FD_t* open_part(const char* name, unsigned flags, hid_t, haddr_t) {
       return nullptr;
     }
     if (part->bare && !part->cut_off(0)) return nullptr;
-    return part->take_appended() ? part.release() : nullptr;
+    if (!part->take_appended()) return nullptr;
+    part->committed = std::max(first_bytes, part->end);  // all that is there was committed, or is of no use
+    return part.release();
   });
 }
 

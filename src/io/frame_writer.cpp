@@ -125,7 +125,7 @@ void FrameWriter::visit_state(StateVisitor& state) {
   if (!state.restores()) return;
   last_change_.clear();
   for (std::size_t i = 0; i < tiles.size(); ++i) last_change_[tiles[i]] = frames.at(i);
-  file_.remove(all_frames);
+  file_.remove(all_frames, {time_name, "/surface/y", "/surface/x"});
   for (auto k = static_cast<int>(times_.size()); file_.has(frame(k)); ++k) file_.remove(frame(k));
   if (times_.empty())
     file_.remove(time_name);

@@ -71,7 +71,12 @@ Checkpoints StateFile::checkpoints(std::string from) {
 
 void StateFile::keep(std::string state) {
   run_.state = std::move(state);
-  write_text_file(path_, state_bytes(run_, run_state_output), run_state_output);
+  try {
+    write_text_file(path_, state_bytes(run_, run_state_output), run_state_output);
+  } catch (const Error& error) {
+    if (!std::exchange(failed_, true))
+      spdlog::warn("the run's state cannot be kept, and the run goes on: {}", error.what());
+  }
   run_.state.clear();
   since_ = {};
 }

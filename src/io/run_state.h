@@ -40,7 +40,8 @@ std::filesystem::path state_path(const std::filesystem::path& run_file);
 /// Refuses to begin a run again that can go on. Error: input.
 void check_no_state(const std::filesystem::path& run_file);
 
-/// The file of a run's state, written again each `seconds`. A kill leaves the one before.
+/// The file of a run's state, written again each `seconds`. A kill leaves the one before. Where it cannot be
+/// written it warns once.
 class StateFile {
  public:
   /// run: its own state is empty. seconds: 0: it keeps none.
@@ -61,6 +62,7 @@ class StateFile {
   RunState run_;
   double seconds_;
   Stopwatch since_;  // the last one was kept
+  bool failed_ = false;
 };
 
 /// The state of a run that goes with PATH.part. Empty: none was kept, so the run begins at its start. Error:

@@ -191,7 +191,10 @@ void RunWriter::on_frame(double time, const HeightField& surface) {
 }
 
 void RunWriter::visit_state(StateVisitor& state) {
-  if (!state.restores()) flush();
+  if (!state.restores()) {
+    flush();
+    sync_part(path_);  // the state that goes with it will be on the disk
+  }
   const auto rows_of = [](const std::vector<Hdf5Column>& columns) {
     return columns.empty() ? std::uint64_t{0} : columns.front().rows();
   };
@@ -206,9 +209,12 @@ void RunWriter::visit_state(StateVisitor& state) {
     visit_relaxation_fields([&](const FieldText& field, const auto&) {
       relaxation_columns_.push_back(file_.shortened(std::string("/relaxation/") + field.name, relaxations));
     });
-    for (const char* later : {final_surface, error_surface, error_group}) file_.remove(later);
+    for (const char* later : {final_surface, error_surface})
+      file_.remove(later, {"/surface/y", "/surface/x"});
+    file_.remove(error_group);
   }
   frames_.visit_state(state);
+  if (state.restores()) file_.flush();
 }
 
 void RunWriter::end(const RunResult& result, const HeightField& surface) {

@@ -84,7 +84,7 @@ class Stepped {
   }
   /// Error: input, if a law of one's own has a part in it.
   std::string state() {
-    KeptSimulation kept{scene_text(scene().scene), folder_.string(), {}};
+    KeptSimulation kept{scene_text(scene().scene), std::filesystem::absolute(folder_).string(), {}};
     kept.state = use([](SteppedSimulation& simulation) { return simulation.state(); });
     return state_bytes(kept, simulation_state);
   }

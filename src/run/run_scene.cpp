@@ -20,8 +20,10 @@
 #include "haptics/stroke_quality.h"
 #include "haptics/stroke_smoothing.h"
 #include "import/import_stroke.h"
+#include "io/input_kind.h"
 #include "io/mesh_file.h"
 #include "io/plugin_file.h"
+#include "io/run_file.h"
 #include "io/run_state.h"
 #include "io/run_writer.h"
 #include "io/scene_toml.h"
@@ -138,6 +140,23 @@ PlacedStroke load_placed(const Scene& scene, const RunOptions& options) {
 
 namespace {
 
+/// Whether this run, by the same build and from the same files, is complete in `output`.
+bool is_complete(const std::filesystem::path& output, const std::string& scene,
+                 const std::string& stroke_hash, const Simulation& simulation, bool estimates_error) {
+  if (std::filesystem::exists(part_path(output)) || kind_of(output) != InputKind::run) return false;
+  const RunFile run(output);
+  if (!run.complete() || run.scene_text() != scene) return false;
+  for (const auto& [name, value] : run.provenance())
+    if ((name == "commit" && value != commit) || (name == "stroke_hash" && value != stroke_hash))
+      return false;
+  const std::shared_ptr<const TriangleMesh> mesh = run.scene().tool.mesh, ours = simulation.scene().tool.mesh;
+  if (static_cast<bool>(mesh) != static_cast<bool>(ours) || (mesh && *mesh != *ours)) return false;
+  bool same = true;
+  visit_cells_of_both(run.initial_bed(), simulation.bed(),
+                      [&](int, int, double one, double other) { same = same && one == other; });
+  return same && (!estimates_error || run.error_estimate());
+}
+
 /// Says of a run that keeps no state, before any work, why not. Error: input.
 void check_keeps_state(const Scene& scene) {
   if (keeps_state(scene)) return;
@@ -180,20 +199,26 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
       options.scene_file.empty() ? "" : scene_file_entry(options.scene_file, output);
   std::optional<StateFile> states;
   Checkpoints checkpoints;
+  std::optional<RunWriter> writer;
   if (!output.empty()) {
-    const bool keeps = options.checkpoint > 0.0 || options.resume;
     const std::string text = scene_text({scene, asked.view});
+    if (options.resume && is_complete(output, text, stroke_hash, simulation, options.second.has_value())) {
+      StateFile(state_path(output), {}, 0.0).remove();
+      RunResult complete;
+      complete.already_complete = true;
+      return complete;
+    }
+    const bool keeps = options.checkpoint > 0.0 || options.resume;
     const std::string surface_hash = keeps ? content_hash(simulation.bed()) : "";
     states.emplace(state_path(output),
                    RunState{commit, text, stroke_hash, surface_hash, options.second.has_value()},
                    options.checkpoint);
+    check_part_is_free(output);
     checkpoints = states->checkpoints(options.resume ? state_with_part(*states, output, text) : "");
+    const auto begins = checkpoints.from.empty() ? Hdf5Writer::Begins::anew : Hdf5Writer::Begins::from_part;
+    writer.emplace(output, simulation, asked.view, stroke_hash, scene_file, begins);
     if (checkpoints.from.empty()) states->remove();
   }
-  std::optional<RunWriter> writer;
-  if (!output.empty())
-    writer.emplace(output, simulation, asked.view, stroke_hash, scene_file,
-                   checkpoints.from.empty() ? Hdf5Writer::Begins::anew : Hdf5Writer::Begins::from_part);
   TipPathGatherer path(scene);
   std::optional<RunProgress> bar;
   Kept force(force_of);
@@ -227,6 +252,10 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
     result.error = estimated_error(scene, *start, stroke, {end, result}, force, *options.second, kept);
     if (result.error && writer) writer->write_error(*result.error, kept);
     result.warnings = given.warnings();
+    if (interrupted() && (options.checkpoint > 0.0 || options.resume)) {  // the estimate is still to be made
+      result.interrupted = true;
+      return result;
+    }
   }
   if (writer) writer->finish();
   if (states) states->remove();

@@ -317,6 +317,7 @@ struct RunResult {
   double least_beside = std::numeric_limits<double>::infinity();
   int threads = 1;
   bool interrupted = false;
+  bool already_complete = false;  ///< the run was to go on, but its file is complete: nothing else is known
   std::optional<FurrowMeasures> furrow;          ///< if the stroke touched sand
   std::optional<FollowedSand> followed;          ///< if the stroke follows the sand
   std::optional<ErrorEstimate> error;            ///< if it was asked for

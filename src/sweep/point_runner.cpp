@@ -1,5 +1,7 @@
 #include "sweep/point_runner.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -122,6 +124,11 @@ std::optional<SharedRunResult> run_shared(const std::vector<Scene>& scenes, cons
     return result;
   } catch (const Error& error) {
     if (is_of_the_machine(error)) throw;
+    if (!checkpoints.from.empty() && error.kind() == ErrorKind::input) {
+      spdlog::warn("{}; the point begins at its start", error.what());
+      return run_shared(scenes, bed, stroke, metrics, golden, second,
+                        {"", checkpoints.due, checkpoints.keep});
+    }
     const PointVerdict verdict =
         error.kind() == ErrorKind::unstable ? PointVerdict::unstable : PointVerdict::refused;
     const PointResult point = failed_point(verdict, error.what(), metrics.size());

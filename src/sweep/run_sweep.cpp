@@ -1,6 +1,7 @@
 #include "sweep/run_sweep.h"
 
 #include <spdlog/spdlog.h>
+#include <sys/time.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
@@ -67,6 +68,7 @@ struct Sweep::Work {
   std::size_t points = 0;          // the number of points in them
   double checkpoint = 0.0;         // s
   std::function<void(double)> progress;
+  std::function<void()> got_on;  // a point was written, or a state was kept
 
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;  // guards the members below
@@ -78,6 +80,7 @@ struct Sweep::Work {
     const std::scoped_lock lock(mutex);
     verdicts[static_cast<std::size_t>(done.verdict)] += 1;
     points_done += 1;
+    got_on();
     progress(static_cast<double>(points_done) / static_cast<double>(points));
   }
 };
@@ -178,7 +181,8 @@ SweepManifest Sweep::manifest() const {
 }
 
 bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>& points, double checkpoint,
-                      ChangePainter& painter, const std::function<void(const PointResult&)>& written) {
+                      ChangePainter& painter, const std::function<void(const PointResult&)>& written,
+                      const std::function<void()>& got_on) {
   const std::size_t metrics = folder.metrics().size();
   const auto write = [&](std::size_t point, const PointResult& result, const std::string& scene,
                          const SweepFolder::Surface& surface) {
@@ -220,11 +224,18 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
       folder.state_file(points.front()),
       {commit, scenes_text, stroke ? stroke->hash : "", content_hash(*bed), plan_.second.has_value()},
       checkpoint);
-  const bool keeps = keeps_state(scenes.front());
+  Checkpoints checkpoints;
+  if (keeps_state(scenes.front())) {
+    checkpoints = states.checkpoints(state_or_start(states));
+    if (checkpoints.keep)
+      checkpoints.keep = [keep = std::move(checkpoints.keep), &got_on](std::string state) {
+        keep(std::move(state));
+        got_on();
+      };
+  }
   const std::optional<SharedRunResult> result =
       run_shared({scenes.begin(), scenes.end()}, *bed, stroke ? &stroke->stroke : nullptr, folder.metrics(),
-                 golden_ ? &*golden_ : nullptr, plan_.second,
-                 keeps ? states.checkpoints(state_or_start(states)) : Checkpoints{});
+                 golden_ ? &*golden_ : nullptr, plan_.second, checkpoints);
   if (!result) return false;
   if (stroke) {
     const Scene& scene = scenes.front();
@@ -260,8 +271,9 @@ void Sweep::work_through(const SweepFolder& folder, Work& work) {
     const std::size_t mine = work.next++;
     if (mine >= work.groups.size()) return;
     try {
-      const bool simulated = run_group(folder, work.groups[mine], work.checkpoint, painter,
-                                       [&](const PointResult& result) { work.count(result); });
+      const bool simulated = run_group(
+          folder, work.groups[mine], work.checkpoint, painter,
+          [&](const PointResult& result) { work.count(result); }, work.got_on);
       const std::scoped_lock lock(work.mutex);
       work.simulations += simulated;
     } catch (...) {
@@ -280,6 +292,7 @@ SweepCounters Sweep::run(const SweepFolder& folder, const SweepOptions& options)
   work.checkpoint = options.checkpoint;
   const fs::path lock_path =
       folder.path() / "points" / fmt::format(".shard-{}-of-{}", options.shard.index, options.shard.of);
+  work.got_on = [&] { utimes(lock_path.c_str(), nullptr); };  // a Slurm task looks at it (slurm_script.cpp)
   const std::optional<FileLock> lock = FileLock::try_take(lock_path);
   if (!lock)
     throw_io_error(
@@ -291,7 +304,11 @@ SweepCounters Sweep::run(const SweepFolder& folder, const SweepOptions& options)
       const std::optional<PointResult> done = folder.read(point);
       counters.points += 1;
       counters.done_before += done.has_value();
-      if (done) work.verdicts[static_cast<std::size_t>(done->verdict)] += 1;
+      if (done) {
+        work.verdicts[static_cast<std::size_t>(done->verdict)] += 1;
+        std::error_code none;
+        fs::remove(folder.state_file(point), none);  // a kill came before it was removed
+      }
       if (!done) missing.push_back(point);
     }
     work.points += missing.size();
@@ -334,7 +351,8 @@ Sweep::Estimate Sweep::estimate() {
   const PointGroup run(group.begin(),
                        group.begin() + std::min<std::ptrdiff_t>(plan_.second ? 1 : 2, std::ssize(group)));
   constexpr double no_checkpoint = 0.0;
-  run_group(folder, run, no_checkpoint, painter, [](const PointResult&) {});
+  run_group(
+      folder, run, no_checkpoint, painter, [](const PointResult&) {}, [] {});
   Estimate estimate;
   // Points do not share second solutions.
   estimate.seconds =

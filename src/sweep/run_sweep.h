@@ -84,10 +84,11 @@ class Sweep {
   std::size_t estimated_simulations();
   /// Takes group after group from `work` and runs it.
   void work_through(const SweepFolder& folder, Work& work);
-  /// Runs these points of a group and writes their files; calls `written` after each. Stops when
-  /// interrupted(). checkpoint [s]: as in SweepOptions. Returns true if it ran a simulation.
+  /// Runs these points of a group and writes their files; calls `written` after each, got_on when a state was
+  /// kept. Stops when interrupted(). checkpoint [s]: as in SweepOptions. Returns true if it ran a simulation.
   bool run_group(const SweepFolder& folder, const std::vector<std::size_t>& points, double checkpoint,
-                 ChangePainter& painter, const std::function<void(const PointResult&)>& written);
+                 ChangePainter& painter, const std::function<void(const PointResult&)>& written,
+                 const std::function<void()>& got_on);
 
   SweepPlan plan_;
   SweepInputs inputs_;

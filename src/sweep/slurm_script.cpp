@@ -64,23 +64,25 @@ std::string folder_line(const SlurmWork& work) {
 
 /// The lines that run the program, and queue the job again if its time ended and it had got on. Slurm tells
 /// the shell, which tells the program: USR1 before the time ends, TERM where somebody cancels the job.
-std::string requeued_lines(const SlurmWork& work, const std::string& arguments) {
+std::string requeued_lines(const SlurmWork& work, const std::string& arguments, int of) {
   const std::string folder = file_argument(work.folder);
+  const std::string progress =
+      fmt::format(R"({}/points/.shard-"$SLURM_ARRAY_TASK_ID"-of-{})", folder, of);  // touched by Sweep::run
   return folder_line(work) + fmt::format(R"(started={}/slurm/"$SLURM_JOB_ID".started
 touch "$started"
 {} &
 program=$!
 trap 'ended=yes; kill -USR1 $program' USR1
-trap 'kill -TERM $program' TERM
+trap 'ended=; kill -TERM $program' TERM
 wait $program
 code=$?
 while kill -0 $program 2> /dev/null; do wait $program; code=$?; done
-got_on=$(find {}/points -newer "$started" | head -n 1)
+if [ ! {} -nt "$started" ]; then ended=; fi
 rm -f "$started"
-if [ "$ended" ] && [ $code -gt 128 ] && [ "$got_on" ]; then scontrol requeue "$SLURM_JOB_ID"; fi
+if [ "$ended" ] && [ $code -gt 128 ]; then scontrol requeue "$SLURM_JOB_ID"; fi
 exit $code
 )",
-                                         folder, command_line(work, arguments), folder);
+                                         folder, command_line(work, arguments), progress);
 }
 
 }  // namespace
@@ -114,7 +116,7 @@ std::string array_script(const SlurmOptions& options, const SlurmWork& work, con
 #SBATCH --signal=B:USR1@30
 {}{}{})",
                      array_text(tasks), options.cpus_per_task, log_lines(work, "%A_%a.log"),
-                     resource_lines(options), requeued_lines(work, arguments));
+                     resource_lines(options), requeued_lines(work, arguments, of));
 }
 
 std::string collect_script(const SlurmOptions& options, const SlurmWork& work) {

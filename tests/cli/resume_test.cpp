@@ -80,6 +80,38 @@ TEST_F(CliResume, WithoutAStateItBeginsAndWhenCompleteItSaysSo) {
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(Json::parse(again.out)["already_complete"], true);
   EXPECT_EQ(read_file(folder / "a.h5"), bytes);
+  // A kill came between the run's end and the removal of its state; the picture is still to be drawn.
+  write_file(folder / "a.h5.state", "of this run");
+  const ProgramResult pictured = run({"-o", "a.h5", "--resume", "--png", "a.png"});
+  EXPECT_EQ(pictured.exit_code, 0) << pictured.err;
+  EXPECT_FALSE(fs::exists(folder / "a.h5.state"));
+  EXPECT_TRUE(fs::exists(folder / "a.png"));
+  // Another stroke under the same name.
+  write_file(folder / "line.toml",
+             "start = [-0.05, 0.0]\nspeed = 0.05\n[[segment]]\nkind = \"line\"\nto = [0.05, 0.01]\ndepth = "
+             "0.004\n");
+  EXPECT_FALSE(Json::parse(run({"-o", "a.h5", "--resume"}).out).contains("already_complete"));
+}
+
+TEST_F(CliResume, AnEstimateThatWasStoppedIsMadeByTheNextCommand) {
+  const std::vector<std::string> words = {"-o",           "a.h5", "--estimate-error",
+                                          "--checkpoint", "0.02", "--resume"};
+  Conditions while_estimating{SIGINT};  // the final surface has been written by then
+  while_estimating.when = [this, size = std::uintmax_t{0}, unchanged = 0]() mutable {
+    const fs::path part = folder / "a.h5.part";
+    std::error_code none;
+    const std::uintmax_t now = fs::exists(part) ? fs::file_size(part, none) : 0;
+    unchanged = std::exchange(size, now) == now && now > 0 ? unchanged + 1 : 0;
+    return unchanged > 250;  // half a second, in which a run flushes
+  };
+  const ProgramResult stopped = run(words, while_estimating);
+  if (stopped.exit_code == 0) GTEST_SKIP() << "the estimate took less than half a second";
+  EXPECT_EQ(stopped.exit_code, 128 + SIGINT) << stopped.err;
+  EXPECT_FALSE(fs::exists(folder / "a.h5"));
+  const ProgramResult on = run(words);
+  EXPECT_EQ(on.exit_code, 0) << on.err;
+  EXPECT_TRUE(Json::parse(on.out)["error_estimate"].is_object()) << on.out;
+  EXPECT_TRUE(RunFile(folder / "a.h5").error_estimate().has_value());
 }
 
 TEST_F(CliResume, AStateIsNeitherLostNorTakenForAnotherRuns) {

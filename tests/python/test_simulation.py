@@ -156,7 +156,7 @@ def test_a_state_of_another_scene_or_file_is_refused(small, tmp_path):
     with pytest.raises(sandstroke.Error, match="notes.txt"):
         sim.save(notes)
     assert notes.read_text() == "mine"
-    with pytest.raises(FileNotFoundError):
+    with pytest.raises(sandstroke.FileError, match="none.state: cannot be read"):
         sandstroke.Simulation.load(tmp_path / "none.state")
 
 
@@ -191,6 +191,8 @@ def test_what_many_cannot_do_is_said_with_its_number(small):
         sandstroke.step_many(sims, hands, down=[True, False])
     with pytest.raises(sandstroke.InputError, match="number 2 is there twice"):
         sandstroke.step_many([sims[0], sims[1], sims[0]], hands)
+    with pytest.raises(sandstroke.InputError, match="down: some of it is masked"):
+        sandstroke.step_many(sims, hands, down=np.ma.array([[True] * 5], mask=[[False] * 4 + [True]]))
     masked = np.ma.array(hands, mask=False)
     masked[1, 2] = np.ma.masked
     with pytest.raises(sandstroke.InputError, match="simulation 1: at 0.0020 s .* not a number"):

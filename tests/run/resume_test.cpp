@@ -152,6 +152,13 @@ TEST(Resume, ARunGoesOnWithTheSameBits) {
                                   }}),
                    Killed);
     }
+    {  // and is killed again, before its first flush
+      WrittenRun killed(scene, stroke, folder / "run.h5", Hdf5Writer::Begins::from_part);
+      ticks = at;
+      EXPECT_THROW(
+          killed.to_end({state, [&] { return ++ticks == killed_at; }, [](const auto&) { throw Killed(); }}),
+          Killed);
+    }
     WrittenRun on(scene, stroke, folder / "run.h5", Hdf5Writer::Begins::from_part);
     on.to_end({state});
     expect_same_file(RunFile(folder / "run.h5"), RunFile(folder / "whole.h5"));

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from . import _sandstroke as _core
 from ._arguments import Array, Laws, Scene, SceneLike, with_laws
-from ._sandstroke import InputError, Tick
+from ._sandstroke import FileError, InputError, Tick
 
 
 class Simulation:
@@ -70,8 +70,12 @@ class Simulation:
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Simulation:
         """Returns the simulation that save() wrote. Files that its scene names, but for the surface, must be there."""
-        with open(path, "rb") as file:
-            return cls._of_state(file.read(), os.fspath(path))
+        try:
+            with open(path, "rb") as file:
+                state = file.read()
+        except OSError as error:
+            raise FileError(f"{os.fspath(path)}: cannot be read ({error.strerror})") from None
+        return cls._of_state(state, os.fspath(path))
 
     @classmethod
     def _of_state(cls, state: bytes, name: str = "the state") -> Simulation:
@@ -178,8 +182,10 @@ def step_many(simulations: Sequence[Simulation], hands: Array, *, velocities: Ar
                          f"{' x '.join(map(str, hands.shape))}")
 
     def for_all(name: str, given: Array, width: tuple[int, ...], kind: type) -> Array:
+        if np.ma.is_masked(given):
+            raise InputError(f"{name}: some of it is masked")
         try:
-            return np.broadcast_to(np.asarray(np.ma.filled(given, np.nan), dtype=kind), hands.shape[:2] + width)
+            return np.broadcast_to(np.asarray(given, dtype=kind), hands.shape[:2] + width)
         except ValueError:
             raise InputError(f"{name}: does not fit {hands.shape[0]} simulations x {hands.shape[1]} ticks") from None
 
