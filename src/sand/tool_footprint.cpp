@@ -72,13 +72,13 @@ bool ToolFootprint::open(const HeightField& bed, const Extent& extent) {
 
 void ToolFootprint::make_room() {
   const std::size_t needed = at(cells_.rows());
-  if (needed <= room_) return;
+  if (needed <= room_ && weights_.size() == room_) return;
   // Takes room for one row and one group more: the window may grow so as the tool moves, and a servo loop
   // must not allocate memory.
-  room_ = static_cast<std::size_t>(cells_.rows() + 1) * (stride_ + cells_per_group);
-  for (auto* memory : {&heights_, &underside_, &takes_, &ring_weight_, &weights_, &excess_}) {
+  if (needed > room_) room_ = static_cast<std::size_t>(cells_.rows() + 1) * (stride_ + cells_per_group);
+  for (AlignedVector<double>* memory : std::initializer_list<AlignedVector<double>*>{
+           &heights_, &underside_, &takes_, &excess_, &ring_weight_, &weights_})
     memory->assign(room_, 0.0);
-  }
   flags_.resize(room_ / cells_per_group + 1);
 }
 

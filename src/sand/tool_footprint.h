@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/aligned_vector.h"
+#include "core/copied.h"
 #include "sand/height_field.h"
 
 namespace sandstroke {
@@ -76,7 +77,8 @@ class ToolFootprint {
   int stride_ = 0;
   double axis_x_ = 0.0, axis_y_ = 0.0, first_x_ = 0.0, first_y_ = 0.0;
   std::size_t room_ = 0;
-  AlignedVector<double> heights_, underside_, takes_, ring_weight_, weights_, excess_;
+  AlignedVector<double> heights_, underside_, takes_, excess_;
+  Scratch<AlignedVector<double>> ring_weight_, weights_;  // from open() to the displacement there
   AlignedVector<unsigned char> flags_;
   std::vector<RowCells> bowl_;  // buffer of make_walls()
 };
