@@ -82,6 +82,7 @@ void StateFile::keep(std::string state) {
 }
 
 void StateFile::remove() const {
+  if (!exists() || !begins_with(path_, run_state_output.begin)) return;
   std::error_code ignored;  // it is not needed any more, and does no harm
   fs::remove(path_, ignored);
 }

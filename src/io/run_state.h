@@ -53,6 +53,9 @@ class StateFile {
   bool exists() const { return std::filesystem::exists(path_); }
   /// For a simulation that goes on from this state. They use this object.
   Checkpoints checkpoints(std::string from);
+  /// Whether a state could not be written.
+  bool failed() const { return failed_; }
+  /// Leaves a file that is no run's state.
   void remove() const;
 
  private:

@@ -29,7 +29,7 @@ class Stepped {
  public:
   /// Without surface it takes the scene's.
   Stepped(const SceneHere& here, bool relaxes, const pybind11::object& surface)
-      : folder_(here.folder), view_(here.scene.view) {
+      : folder_(std::filesystem::absolute(here.folder.empty() ? "." : here.folder)), view_(here.scene.view) {
     std::optional<HeightField> start;
     if (!surface.is_none()) start = surface_of(here.scene, grid_with_gaps("surface", surface));
     Warnings warnings;
@@ -84,7 +84,7 @@ class Stepped {
   }
   /// Error: input, if a law of one's own has a part in it.
   std::string state() {
-    KeptSimulation kept{scene_text(scene().scene), std::filesystem::absolute(folder_).string(), {}};
+    KeptSimulation kept{scene_text(scene().scene), folder_.string(), {}};
     kept.state = use([](SteppedSimulation& simulation) { return simulation.state(); });
     return state_bytes(kept, simulation_state);
   }

@@ -142,7 +142,7 @@ namespace {
 
 /// Whether this run, by the same build and from the same files, is complete in `output`.
 bool is_complete(const std::filesystem::path& output, const std::string& scene,
-                 const std::string& stroke_hash, const Simulation& simulation, bool estimates_error) {
+                 const std::string& stroke_hash, const Simulation& simulation, const RunOptions& options) {
   if (std::filesystem::exists(part_path(output)) || kind_of(output) != InputKind::run) return false;
   const RunFile run(output);
   if (!run.complete() || run.scene_text() != scene) return false;
@@ -154,7 +154,7 @@ bool is_complete(const std::filesystem::path& output, const std::string& scene,
   bool same = true;
   visit_cells_of_both(run.initial_bed(), simulation.bed(),
                       [&](int, int, double one, double other) { same = same && one == other; });
-  return same && (!estimates_error || run.error_estimate());
+  return same && (!options.second || run.error_estimate()) && (!options.error_map || run.error_map());
 }
 
 /// Says of a run that keeps no state, before any work, why not. Error: input.
@@ -202,7 +202,7 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
   std::optional<RunWriter> writer;
   if (!output.empty()) {
     const std::string text = scene_text({scene, asked.view});
-    if (options.resume && is_complete(output, text, stroke_hash, simulation, options.second.has_value())) {
+    if (options.resume && is_complete(output, text, stroke_hash, simulation, options)) {
       StateFile(state_path(output), {}, 0.0).remove();
       RunResult complete;
       complete.already_complete = true;
@@ -252,7 +252,8 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
     result.error = estimated_error(scene, *start, stroke, {end, result}, force, *options.second, kept);
     if (result.error && writer) writer->write_error(*result.error, kept);
     result.warnings = given.warnings();
-    if (interrupted() && (options.checkpoint > 0.0 || options.resume)) {  // the estimate is still to be made
+    if (interrupted() && !result.error && states && states->exists()) {  // the estimate is still to be made
+      spdlog::warn("the error is not estimated yet: --resume goes on from the run's last state");
       result.interrupted = true;
       return result;
     }

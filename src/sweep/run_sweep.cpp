@@ -228,9 +228,9 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
   if (keeps_state(scenes.front())) {
     checkpoints = states.checkpoints(state_or_start(states));
     if (checkpoints.keep)
-      checkpoints.keep = [keep = std::move(checkpoints.keep), &got_on](std::string state) {
+      checkpoints.keep = [keep = std::move(checkpoints.keep), &states, &got_on](std::string state) {
         keep(std::move(state));
-        got_on();
+        if (!states.failed()) got_on();
       };
   }
   const std::optional<SharedRunResult> result =

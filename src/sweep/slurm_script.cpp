@@ -68,21 +68,23 @@ std::string requeued_lines(const SlurmWork& work, const std::string& arguments, 
   const std::string folder = file_argument(work.folder);
   const std::string progress =
       fmt::format(R"({}/points/.shard-"$SLURM_ARRAY_TASK_ID"-of-{})", folder, of);  // touched by Sweep::run
-  return folder_line(work) + fmt::format(R"(started={}/slurm/"$SLURM_JOB_ID".started
-touch "$started"
+  return folder_line(work) + fmt::format(R"(progress={}
+started={}/slurm/"$SLURM_JOB_ID".started
+touch "$progress" "$started"
 {} &
 program=$!
-trap 'ended=yes; kill -USR1 $program' USR1
-trap 'ended=; kill -TERM $program' TERM
+trap 'ended=$(date +%s); kill -USR1 $program' USR1
+# Within half a minute behind USR1 it is somebody who cancels the job; then it is Slurm.
+trap '[ "$ended" ] && [ $(($(date +%s) - ended)) -lt 25 ] && ended=; kill -TERM $program' TERM
 wait $program
 code=$?
 while kill -0 $program 2> /dev/null; do wait $program; code=$?; done
-if [ ! {} -nt "$started" ]; then ended=; fi
+if [ ! "$progress" -nt "$started" ]; then ended=; fi
 rm -f "$started"
 if [ "$ended" ] && [ $code -gt 128 ]; then scontrol requeue "$SLURM_JOB_ID"; fi
 exit $code
 )",
-                                         folder, command_line(work, arguments), progress);
+                                         progress, folder, command_line(work, arguments));
 }
 
 }  // namespace

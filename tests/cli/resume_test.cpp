@@ -81,7 +81,7 @@ TEST_F(CliResume, WithoutAStateItBeginsAndWhenCompleteItSaysSo) {
   EXPECT_EQ(Json::parse(again.out)["already_complete"], true);
   EXPECT_EQ(read_file(folder / "a.h5"), bytes);
   // A kill came between the run's end and the removal of its state; the picture is still to be drawn.
-  write_file(folder / "a.h5.state", "of this run");
+  write_file(folder / "a.h5.state", "sandstroke run state 1\n");
   const ProgramResult pictured = run({"-o", "a.h5", "--resume", "--png", "a.png"});
   EXPECT_EQ(pictured.exit_code, 0) << pictured.err;
   EXPECT_FALSE(fs::exists(folder / "a.h5.state"));

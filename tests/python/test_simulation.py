@@ -141,6 +141,17 @@ def test_a_state_goes_on_in_another_process_with_the_same_bits(small, tmp_path, 
     assert sim.time == 0.001
 
 
+def test_a_scene_named_in_its_folder_is_kept_and_loaded_from_another(tmp_path, monkeypatch):
+    (tmp_path / "scene.toml").write_text("[bed]\nsize = [0.1, 0.1]\ncells = [40, 40]\n")
+    monkeypatch.chdir(tmp_path)
+    sim = sandstroke.Simulation("scene.toml")
+    sim.tick((0.0, 0.0, -0.004))
+    sim.save("sim.state")
+    monkeypatch.chdir("/")
+    assert np.array_equal(sandstroke.Simulation.load(tmp_path / "sim.state").heights, sim.heights)
+    assert pickle.loads(pickle.dumps(sim)).time == 0.001
+
+
 def test_a_state_of_another_scene_or_file_is_refused(small, tmp_path):
     sim, steeper = sandstroke.Simulation(small), sandstroke.Simulation(small, settings={"relaxation.talus_angle": 34})
     steeper.tick((0.0, 0.0, -0.004))
