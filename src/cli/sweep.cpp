@@ -234,10 +234,8 @@ void add_sweep_command(CLI::App& app, Command& chosen) {
       command->add_option("--shard", arguments->shard, "Run only part I of N, for example 1/4")
           ->type_name("I/N");
   command
-      ->add_option(
-          "--checkpoint", arguments->checkpoint,
-          "Keep the state of each simulation every so many seconds. The same command goes on from it "
-          "with the same bits, and so does a Slurm task that is requeued. 0: keep none")
+      ->add_option("--checkpoint", arguments->checkpoint,
+                   "Keep each simulation's state so often: the same command goes on from it. 0: never")
       ->type_name("SECONDS")
       ->check(not_negative_number())
       ->capture_default_str();
