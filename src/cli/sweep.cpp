@@ -76,6 +76,14 @@ fs::path output_folder(const SweepArguments& arguments) {
   return arguments.output.empty() ? arguments.plan.stem() : arguments.output;
 }
 
+/// What the jobs are asked for, with what their sweeps get from this one.
+SlurmArguments slurm_of(const SweepArguments& arguments) {
+  SlurmArguments slurm = arguments.slurm;
+  if (arguments.checkpoint != SweepOptions{}.checkpoint)
+    slurm.options.arguments = fmt::format(" --checkpoint {}", arguments.checkpoint);
+  return slurm;
+}
+
 int dry_run(Sweep& sweep, const SweepArguments& arguments) {
   if (!arguments.json) spdlog::info("runs one point, to measure it");
   const Sweep::Estimate estimate = sweep.estimate();
@@ -90,7 +98,7 @@ int dry_run(Sweep& sweep, const SweepArguments& arguments) {
         sweep.refused().begin()->first, sweep.refused().begin()->second);
   const std::string script =
       arguments.slurm.submit
-          ? job_script(arguments.slurm, arguments.plan, output_folder(arguments), sweep.simulations())
+          ? job_script(slurm_of(arguments), arguments.plan, output_folder(arguments), sweep.simulations())
           : "";
   if (arguments.json) {
     nlohmann::ordered_json json{{"points", design.points()},
@@ -158,7 +166,7 @@ int sweep(const SweepArguments& arguments) {
   const SweepFolder folder = SweepFolder::make(output_folder(arguments), sweep.manifest());
   check_collectable(folder);
   if (arguments.slurm.submit)
-    return submit_sweep(arguments.slurm, arguments.plan, folder, sweep.groups(), arguments.json);
+    return submit_sweep(slurm_of(arguments), arguments.plan, folder, sweep.groups(), arguments.json);
   SweepCounters counters;
   {
     Progress bar("sweep");
@@ -234,11 +242,12 @@ void add_sweep_command(CLI::App& app, Command& chosen) {
       command->add_option("--shard", arguments->shard, "Run only part I of N, for example 1/4")
           ->type_name("I/N");
   command
-      ->add_option("--checkpoint", arguments->checkpoint,
-                   "Keep each simulation's state so often: the same command goes on from it. 0: never")
-      ->type_name("SECONDS")
-      ->check(not_negative_number())
-      ->capture_default_str();
+      ->add_option(
+          "--checkpoint", arguments->checkpoint,
+          fmt::format("Keep each simulation's state every so many seconds: the same command goes on from "
+                      "it. Default: {:g}. 0: never",
+                      arguments->checkpoint))
+      ->check(not_negative_number());
   command
       ->add_flag("--dry-run", arguments->dry_run,
                  "Run nothing but one point. Print the number of points, the first ones and the last, and "

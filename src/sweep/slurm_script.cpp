@@ -107,8 +107,8 @@ std::string array_text(const std::vector<int>& tasks) {
 std::string array_script(const SlurmOptions& options, const SlurmWork& work, const std::vector<int>& tasks,
                          int of) {
   const std::string arguments =
-      fmt::format(R"({} -o {} --shard "$SLURM_ARRAY_TASK_ID"/{} --jobs "$SLURM_CPUS_PER_TASK")",
-                  file_argument(work.plan), file_argument(work.folder), of);
+      fmt::format(R"({} -o {} --shard "$SLURM_ARRAY_TASK_ID"/{} --jobs "$SLURM_CPUS_PER_TASK"{})",
+                  file_argument(work.plan), file_argument(work.folder), of, options.arguments);
   return fmt::format(R"(#!/bin/sh
 # Each task runs what is missing of its part of the sweep. A task whose time ends is queued again, and goes on.
 #SBATCH --job-name=sandstroke

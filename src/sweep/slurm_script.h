@@ -12,6 +12,7 @@ struct SlurmOptions {
   int tasks = 0;                                 ///< number of tasks in the job array; 0: default_tasks()
   int cpus_per_task = 1;                         ///< simulations that a task runs at a time
   std::string memory, time, partition, account;  ///< in sbatch's format; empty: the cluster's defaults
+  std::string arguments = {};      ///< for the sweep of each task, after its own: " --checkpoint 5"
   std::vector<std::string> lines;  ///< more options, written after #SBATCH in a script: "--qos=long"
 };
 

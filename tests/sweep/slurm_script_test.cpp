@@ -93,6 +93,18 @@ TEST(SlurmScript, AsksForWhatTheOptionsSay) {
     EXPECT_TRUE(has(lines, line));
 }
 
+TEST(SlurmScript, ATaskGetsWhatItsSweepWasAskedFor) {
+  const TestFolder folder;
+  write_program(folder / "program");
+  SlurmOptions options;
+  options.arguments = " --checkpoint 5";
+  const SlurmWork work{folder / "program", folder.path(), "plan.toml", "out"};
+  const auto words = started(array_script(options, work, {1}, 1), folder.path());
+  ASSERT_GE(words.size(), 2u);
+  EXPECT_EQ((std::vector<std::string>{words.end() - 2, words.end()}),
+            (std::vector<std::string>{"--checkpoint", "5"}));
+}
+
 TEST(SlurmScript, WhatIsNotAskedForIsTheClusters) {
   for (const std::string& line : option_lines(array_script({}, work_in("/home/me"), {1}, 1)))
     for (const char* option : {"--mem", "--time", "--partition", "--account"})
