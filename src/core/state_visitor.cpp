@@ -1,5 +1,6 @@
 #include "core/state_visitor.h"
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -17,12 +18,6 @@ std::string head_of(std::string_view name, std::size_t size) {
   return head;
 }
 
-std::string hash_of(std::string_view bytes) {
-  ContentHash hash;
-  hash.add(bytes);
-  return hash.text();
-}
-
 }  // namespace
 
 void refuse_state(std::string_view name) {
@@ -38,16 +33,15 @@ void StateKeeper::memory(std::string_view name, void* bytes, std::size_t size) {
 }
 
 std::string StateKeeper::kept() && {
-  kept_ += hash_of(kept_);
+  kept_ += content_hash(kept_);
   return std::move(kept_);
 }
 
 StateRestorer::StateRestorer(std::string_view kept, std::string_view name) {
-  const std::size_t digits = hash_of("").size();
-  if (kept.size() < digits ||
-      hash_of(kept.substr(0, kept.size() - digits)) != kept.substr(kept.size() - digits))
+  const std::size_t digits = content_hash("").size(), size = kept.size() - std::min(digits, kept.size());
+  kept_ = kept.substr(0, size);
+  if (kept.substr(size) != content_hash(kept_))
     throw_input_error("{}: was cut off, or changed since it was kept", name);
-  kept_ = kept.substr(0, kept.size() - digits);
 }
 
 void StateRestorer::memory(std::string_view name, void* bytes, std::size_t size) {

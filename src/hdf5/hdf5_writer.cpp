@@ -229,10 +229,7 @@ Hdf5Column Hdf5Writer::shortened(const std::string& dataset, std::uint64_t rows)
 }
 
 bool Hdf5Writer::has(const std::string& object) const {
-  for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {  // each group on the way
-    if (H5Lexists(file_, object.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
-    if (end == std::string::npos) return true;
-  }
+  return H5Lexists(file_, object.c_str(), H5P_DEFAULT) > 0;  // negative: a group on the way is missing
 }
 
 void Hdf5Writer::remove(const std::string& object) {

@@ -9,7 +9,8 @@ namespace sandstroke {
 namespace {
 
 constexpr int tile_side = BedGeometry::tile_side;
-constexpr const char *time_name = "/surface/time", *initial = "/surface/initial";
+constexpr const char *time_name = "/surface/time", *initial = "/surface/initial",
+                     *all_frames = "/surface/frames";
 
 /// Tiles, in order, as rectangles of cells: tiles in a row are joined, then equal joins below each other.
 std::vector<CellRange> rectangles(const BedGeometry& bed, const std::vector<int>& tiles) {
@@ -36,13 +37,7 @@ std::vector<CellRange> rectangles(const BedGeometry& bed, const std::vector<int>
   return joined;
 }
 
-}  // namespace
-
-namespace {
-
-constexpr const char *frames_group = "/surface/frame", *all_frames = "/surface/frames";
-
-std::string frame(int k) { return fmt::format("{}/{:06}", frames_group, k); }
+std::string frame(int k) { return fmt::format("/surface/frame/{:06}", k); }
 
 }  // namespace
 
@@ -104,11 +99,10 @@ void FrameWriter::finish() {
   if (times_.empty()) return;
   std::vector<Hdf5GridWriter::Block> blocks;
   for (std::size_t k = 0; k < times_.size(); ++k) blocks.push_back({k, ".", height(static_cast<int>(k))});
-  const std::string frames = all_frames;
-  file_.write_virtual(frames, {blocks.size()}, static_cast<std::size_t>(bed_.rows()),
+  file_.write_virtual(all_frames, {blocks.size()}, static_cast<std::size_t>(bed_.rows()),
                       static_cast<std::size_t>(bed_.cols()), blocks);
-  file_.attach_scales(frames, {time_name, "/surface/y", "/surface/x"});
-  file_.describe(frames, "m", "height of the sand over time");
+  file_.attach_scales(all_frames, {time_name, "/surface/y", "/surface/x"});
+  file_.describe(all_frames, "m", "height of the sand over time");
 }
 
 void FrameWriter::visit_state(StateVisitor& state) {

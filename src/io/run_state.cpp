@@ -34,29 +34,41 @@ fs::path state_path(const fs::path& run_file) {
   return path;
 }
 
+void remove_state(const fs::path& state_file) {
+  if (!fs::exists(state_file) || !begins_with(state_file, run_state_output.begin)) return;
+  std::error_code ignored;  // it does no harm
+  fs::remove(state_file, ignored);
+}
+
 void check_no_state(const fs::path& run_file) {
   const fs::path state = state_path(run_file);
   try {
     check_replaceable(state, irreplaceable(run_state_output));
   } catch (const Error&) {
+    if (!fs::is_regular_file(fs::symlink_status(state)) || !begins_with(state, run_state_output.begin)) throw;
     throw_input_error(
         "{}: keeps the state of a run that was stopped; go on with --resume, or begin again with --overwrite",
         state.string());
   }
 }
 
-std::string StateFile::kept() const {
+RunState& StateFile::run() {
+  if (!run_) run_ = what_();
+  return *run_;
+}
+
+std::string StateFile::kept() {
   if (!exists()) return "";
   const std::string bytes = read_text_file(path_, std::numeric_limits<std::size_t>::max());
   auto kept = read_state<RunState>(bytes, run_state_output, path_.string());
-  if (kept.commit != run_.commit)
+  if (kept.commit != run().commit)
     refuse(path_, fmt::format("was kept by the build {}, and this is {}, whose numbers may be others",
-                              kept.commit, run_.commit));
-  if (const std::string difference = scene_difference(run_.scene, kept.scene, "scene"); !difference.empty())
+                              kept.commit, run().commit));
+  if (const std::string difference = scene_difference(run().scene, kept.scene, "scene"); !difference.empty())
     refuse(path_, "is of another scene: " + difference);
-  if (kept.stroke_hash != run_.stroke_hash) refuse(path_, "was kept with another stroke");
-  if (kept.surface_hash != run_.surface_hash) refuse(path_, "was kept with another starting surface");
-  if (kept.estimates_error != run_.estimates_error)
+  if (kept.stroke_hash != run().stroke_hash) refuse(path_, "was kept with another stroke");
+  if (kept.surface_hash != run().surface_hash) refuse(path_, "was kept with another starting surface");
+  if (kept.estimates_error != run().estimates_error)
     refuse(path_, fmt::format("was kept {} --estimate-error", kept.estimates_error ? "with" : "without"));
   return std::move(kept.state);
 }
@@ -70,24 +82,18 @@ Checkpoints StateFile::checkpoints(std::string from) {
 }
 
 void StateFile::keep(std::string state) {
-  run_.state = std::move(state);
+  run().state = std::move(state);
   try {
-    write_text_file(path_, state_bytes(run_, run_state_output), run_state_output);
+    write_text_file(path_, state_bytes(run(), run_state_output), run_state_output);
   } catch (const Error& error) {
     if (!std::exchange(failed_, true))
       spdlog::warn("the run's state cannot be kept, and the run goes on: {}", error.what());
   }
-  run_.state.clear();
+  run().state.clear();
   since_ = {};
 }
 
-void StateFile::remove() const {
-  if (!exists() || !begins_with(path_, run_state_output.begin)) return;
-  std::error_code ignored;  // it is not needed any more, and does no harm
-  fs::remove(path_, ignored);
-}
-
-std::string state_with_part(const StateFile& file, const fs::path& run_file, const std::string& scene_text) {
+std::string state_with_part(StateFile& file, const fs::path& run_file, const std::string& scene_text) {
   std::string state = file.kept();
   const fs::path part = part_path(run_file);
   if (state.empty())

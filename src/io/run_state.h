@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 
 #include "core/output_file.h"
@@ -37,6 +39,9 @@ bool keeps_state(const Scene& scene);
 /// The file beside a run file that keeps the run's state until it is complete: PATH.state.
 std::filesystem::path state_path(const std::filesystem::path& run_file);
 
+/// Removes a run's state that is not needed any more; leaves a file that is none.
+void remove_state(const std::filesystem::path& state_file);
+
 /// Refuses to begin a run again that can go on. Error: input.
 void check_no_state(const std::filesystem::path& run_file);
 
@@ -44,25 +49,25 @@ void check_no_state(const std::filesystem::path& run_file);
 /// written it warns once.
 class StateFile {
  public:
-  /// run: its own state is empty. seconds: 0: it keeps none.
-  StateFile(std::filesystem::path path, RunState run, double seconds)
-      : path_(std::move(path)), run_(std::move(run)), seconds_(seconds) {}
+  /// what: gives the run, without its state; called if a state is read or kept. seconds: 0: it keeps none.
+  StateFile(std::filesystem::path path, std::function<RunState()> what, double seconds)
+      : path_(std::move(path)), what_(std::move(what)), seconds_(seconds) {}
   /// The state that the file keeps; empty: there is no file. Error: input, naming what differs, if it is of
   /// another run; io.
-  std::string kept() const;
+  std::string kept();
   bool exists() const { return std::filesystem::exists(path_); }
   /// For a simulation that goes on from this state. They use this object.
   Checkpoints checkpoints(std::string from);
   /// Whether a state could not be written.
   bool failed() const { return failed_; }
-  /// Leaves a file that is no run's state.
-  void remove() const;
 
  private:
+  RunState& run();
   void keep(std::string state);
 
   std::filesystem::path path_;
-  RunState run_;
+  std::function<RunState()> what_;
+  std::optional<RunState> run_;
   double seconds_;
   Stopwatch since_;  // the last one was kept
   bool failed_ = false;
@@ -70,7 +75,7 @@ class StateFile {
 
 /// The state of a run that goes with PATH.part. Empty: none was kept, so the run begins at its start. Error:
 /// as StateFile::kept(); input, if PATH.part is missing, or of another scene.
-std::string state_with_part(const StateFile& file, const std::filesystem::path& run_file,
+std::string state_with_part(StateFile& file, const std::filesystem::path& run_file,
                             const std::string& scene_text);
 
 }  // namespace sandstroke

@@ -25,7 +25,7 @@ std::string_view after_state_head(std::string_view bytes, const OutputKind& kind
 std::string scene_difference(const std::string& here, const std::string& kept, std::string_view what) {
   std::istringstream ours(here), theirs(kept);
   while (true) {
-    std::string our = "nothing", their = "nothing";
+    std::string our, their;
     const bool more = static_cast<bool>(std::getline(ours, our)),
                others = static_cast<bool>(std::getline(theirs, their));
     if (!more && !others) return "";

@@ -136,10 +136,6 @@ PlacedStroke load_placed(const Scene& scene, const RunOptions& options) {
   return placed;
 }
 
-}  // namespace
-
-namespace {
-
 /// Whether this run, by the same build and from the same files, is complete in `output`.
 bool is_complete(const std::filesystem::path& output, const std::string& scene,
                  const std::string& stroke_hash, const Simulation& simulation, const RunOptions& options) {
@@ -177,13 +173,14 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
 
-  if (options.checkpoint > 0.0 || options.resume) check_keeps_state(scene);
+  const bool keeps = options.checkpoint > 0.0 || options.resume;
+  if (keeps) check_keeps_state(scene);
   if (!options.resume && !output.empty()) check_no_state(output);
   const auto [stroke, stroke_name, stroke_hash] = load_placed(scene, options);
   if (options.second) second_scene(scene, *options.second);  // if this is refused, then before any work
   HeightField bed = options.surface ? *options.surface : load_surface(scene.bed, options.scene_folder);
   std::optional<HeightField> start;
-  if (stroke || options.second) start = bed;
+  if (stroke || options.second || keeps) start = bed;
   if (stroke) check_tool_in_stroke(scene, bed, *stroke, stroke_name);
   Simulation simulation(scene, std::move(bed), stroke);
   if (stroke) {
@@ -199,25 +196,28 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
       options.scene_file.empty() ? "" : scene_file_entry(options.scene_file, output);
   std::optional<StateFile> states;
   Checkpoints checkpoints;
+  const auto text = [&] { return scene_text({scene, asked.view}); };
+  if (options.resume && is_complete(output, text(), stroke_hash, simulation, options)) {
+    remove_state(state_path(output));
+    RunResult complete;
+    complete.already_complete = true;
+    return complete;
+  }
+  if (keeps) {
+    states.emplace(
+        state_path(output),
+        [&, hash = stroke_hash] {
+          return RunState{commit, text(), hash, content_hash(*start), options.second.has_value()};
+        },
+        options.checkpoint);
+    check_part_is_free(output);
+    checkpoints = states->checkpoints(options.resume ? state_with_part(*states, output, text()) : "");
+  }
   std::optional<RunWriter> writer;
   if (!output.empty()) {
-    const std::string text = scene_text({scene, asked.view});
-    if (options.resume && is_complete(output, text, stroke_hash, simulation, options)) {
-      StateFile(state_path(output), {}, 0.0).remove();
-      RunResult complete;
-      complete.already_complete = true;
-      return complete;
-    }
-    const bool keeps = options.checkpoint > 0.0 || options.resume;
-    const std::string surface_hash = keeps ? content_hash(simulation.bed()) : "";
-    states.emplace(state_path(output),
-                   RunState{commit, text, stroke_hash, surface_hash, options.second.has_value()},
-                   options.checkpoint);
-    check_part_is_free(output);
-    checkpoints = states->checkpoints(options.resume ? state_with_part(*states, output, text) : "");
     const auto begins = checkpoints.from.empty() ? Hdf5Writer::Begins::anew : Hdf5Writer::Begins::from_part;
     writer.emplace(output, simulation, asked.view, stroke_hash, scene_file, begins);
-    if (checkpoints.from.empty()) states->remove();
+    if (checkpoints.from.empty()) remove_state(state_path(output));
   }
   TipPathGatherer path(scene);
   std::optional<RunProgress> bar;
@@ -259,7 +259,7 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
     }
   }
   if (writer) writer->finish();
-  if (states) states->remove();
+  if (!output.empty()) remove_state(state_path(output));
   return result;
 }
 

@@ -23,7 +23,7 @@ struct RunOptions {
   std::optional<Stroke> stroke;  ///< samples to play instead of the file that the scene's [stroke] names
   std::optional<HeightField> surface;  ///< to start from, instead of the scene's surface
   double checkpoint = 0.0;  ///< s, after which the run's state is kept beside its file again; 0: never
-  bool resume = false;      ///< go on from a state, if there is one (run/run_state.h)
+  bool resume = false;      ///< go on from a state, if there is one (io/run_state.h)
   /// Called with the simulation after its run, even if that was interrupted. Empty: not called.
   std::function<void(const Simulation&, const RunResult&)> at_end;
 };

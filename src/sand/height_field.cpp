@@ -202,13 +202,12 @@ void HeightField::visit_state(StateVisitor& state) {
     tiles_.clear();
   }
   for (std::uint64_t slot = 0; slot < tiles; ++slot) {
-    if (state.restores()) tiles_.emplace_back();
     if (!state.restores()) {
       Tile tile = *tiles_[slot];
       state.value("bed.tile", tile);
       continue;
     }
-    Tile& tile = tiles_[slot].write();
+    Tile& tile = tiles_.emplace_back().write();
     state.value("bed.tile", tile);
     if (tile.index < 0 || tile.index >= tile_count() || slot_of(tile.index) >= 0)
       throw_input_error("the state is of another bed: it has a tile {}", tile.index);

@@ -58,8 +58,7 @@ void describe_bed(KeyVisitor& v, BedSettings& bed) {
   if (is(file)) {
     v.text("file", s.file,
            "a run file (its final surface; if it was cut off, its last one), a GeoTIFF, a 16-bit grayscale "
-           "PNG, a NumPy array (.npy) or an ESRI "
-           "ASCII grid (.asc)");
+           "PNG, a NumPy array (.npy) or an ESRI ASCII grid (.asc)");
     v.number("low", s.low, any_number, "m",
              "height of a picture's black, or of a map's lowest cell; low = high: as the file says");
     v.number("high", s.high, any_number, "m",

@@ -48,7 +48,7 @@ CellRange stroke_cells(const SceneFile& scene, const HeightField& bed, const Swe
 }
 
 /// The state to go on from. Empty: there is none, or not of this simulation, which begins at its start.
-std::string state_or_start(const StateFile& states) try { return states.kept(); } catch (const Error& other) {
+std::string state_or_start(StateFile& states) try { return states.kept(); } catch (const Error& other) {
   spdlog::warn("{}", other.what());
   return "";
 }
@@ -218,12 +218,13 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
     if (is_of_the_machine(error)) throw;
     return refuse(error.what());
   }
-  std::string scenes_text;
-  for (const SceneFile& scene : scenes) scenes_text += scene_text(scene);
-  StateFile states(
-      folder.state_file(points.front()),
-      {commit, scenes_text, stroke ? stroke->hash : "", content_hash(*bed), plan_.second.has_value()},
-      checkpoint);
+  const auto what = [&] {
+    std::string text;
+    for (const SceneFile& scene : scenes) text += scene_text(scene);
+    return RunState{commit, text, stroke->hash, content_hash(*bed), plan_.second.has_value()};
+  };
+  const fs::path state_file = folder.state_file(points.front());
+  StateFile states(state_file, what, checkpoint);
   Checkpoints checkpoints;
   if (keeps_state(scenes.front())) {
     checkpoints = states.checkpoints(state_or_start(states));
@@ -261,7 +262,7 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
     write(points[i], result->points[i], scene_text(scenes[i]), surface ? kept : SweepFolder::Surface{});
     if (surface && plan_.keep_surface && !kept.same_as) kept.same_as = points[i];
   }
-  states.remove();
+  remove_state(state_file);
   return true;
 }
 
@@ -306,8 +307,7 @@ SweepCounters Sweep::run(const SweepFolder& folder, const SweepOptions& options)
       counters.done_before += done.has_value();
       if (done) {
         work.verdicts[static_cast<std::size_t>(done->verdict)] += 1;
-        std::error_code none;
-        fs::remove(folder.state_file(point), none);  // a kill came before it was removed
+        remove_state(folder.state_file(point));  // a kill came before that
       }
       if (!done) missing.push_back(point);
     }

@@ -16,12 +16,15 @@ namespace fs = std::filesystem;
 class StateFiles : public testing::Test {
  protected:
   StateFiles() {
-    StateFile file(path, run, 1e-9);
+    StateFile file(
+        path, [this] { return run; }, 1e-9);
     file.checkpoints("").keep("what the simulation knows");
   }
   std::string refusal(const RunState& other) const {
     try {
-      StateFile(path, other, 0.0).kept();
+      StateFile(
+          path, [&] { return other; }, 0.0)
+          .kept();
       return "";
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::input);
@@ -34,8 +37,11 @@ class StateFiles : public testing::Test {
 };
 
 TEST_F(StateFiles, AreReadByTheSameRunOnly) {
-  EXPECT_EQ(StateFile(path, run, 0.0).kept(), "what the simulation knows");
-  EXPECT_EQ(StateFile(folder / "none", run, 0.0).kept(), "");
+  EXPECT_EQ(StateFile(
+                path, [this] { return run; }, 0.0)
+                .kept(),
+            "what the simulation knows");
+  EXPECT_EQ(StateFile(folder / "none", {}, 0.0).kept(), "");
   const auto with = [&](auto RunState::*field, auto value) {
     RunState other = run;
     other.*field = value;
@@ -61,11 +67,12 @@ TEST_F(StateFiles, AreRefusedWhenDamaged) {
 }
 
 TEST_F(StateFiles, GoWithAPartOfTheSameScene) {
-  const StateFile file(path, run, 0.0);
+  StateFile file(
+      path, [this] { return run; }, 0.0);
   EXPECT_THROW(state_with_part(file, folder / "a.h5", run.scene), Error);
   std::ofstream(folder / "a.h5.part") << "mine";
   EXPECT_THROW(state_with_part(file, folder / "a.h5", run.scene), Error);
-  file.remove();
+  remove_state(path);
   EXPECT_EQ(state_with_part(file, folder / "a.h5", run.scene), "");
 }
 

@@ -224,6 +224,15 @@ Scene scene_of_a_pile() {
   return scene;
 }
 
+void expect_same_relaxations(SteppedSimulation& one, SteppedSimulation& other) {
+  for (int i = 0; i < 3; ++i) {
+    const RelaxationOutcome a = one.relax(), b = other.relax();
+    EXPECT_EQ(a.passes, b.passes);
+    EXPECT_EQ(a.residual, b.residual);
+  }
+  EXPECT_TRUE(same_sand(one, other));
+}
+
 /// A copy made while sand is still awake, since a relaxation was cut off.
 TEST(SteppedSimulation, ACopyGoesOnWithARelaxationThatWasCutOff) {
   for (const RelaxationMethod method :
@@ -234,12 +243,7 @@ TEST(SteppedSimulation, ACopyGoesOnWithARelaxationThatWasCutOff) {
     SteppedSimulation one(scene, starting_bed(scene.bed));
     one.relax();
     SteppedSimulation other = one;
-    for (int i = 0; i < 3; ++i) {
-      const RelaxationOutcome a = one.relax(), b = other.relax();
-      EXPECT_EQ(a.passes, b.passes);
-      EXPECT_EQ(a.residual, b.residual);
-    }
-    EXPECT_TRUE(same_sand(one, other));
+    expect_same_relaxations(one, other);
   }
 }
 
@@ -309,21 +313,13 @@ TEST(SteppedSimulation, GoesOnFromAStateWithTheSameBits) {
 
 TEST(SteppedSimulation, KeepsWhichSandIsAwakeInAState) {
   for (const RelaxationMethod method : {RelaxationMethod::passes, RelaxationMethod::rkl}) {
-    Scene scene = stepped_scene();
-    scene.bed.surface.kind = SurfaceKind::cylinder;
-    scene.bed.surface.radius = 0.04;
-    scene.bed.surface.height = 0.05;
+    Scene scene = scene_of_a_pile();
     scene.relaxation.method = method;
     scene.relaxation.max_passes = 10;
     SteppedSimulation one(scene, starting_bed(scene.bed)), other = one;
     one.relax();
     other.set_state(one.state());
-    for (int i = 0; i < 3; ++i) {
-      const RelaxationOutcome a = one.relax(), b = other.relax();
-      EXPECT_EQ(a.passes, b.passes);
-      EXPECT_EQ(a.residual, b.residual);
-    }
-    EXPECT_TRUE(same_sand(one, other));
+    expect_same_relaxations(one, other);
   }
 }
 
