@@ -7,6 +7,7 @@
 #include "core/compensated_sum.h"
 #include "core/error.h"
 #include "core/hash.h"
+#include "sand/ground.h"
 
 namespace sandstroke {
 namespace {
@@ -46,7 +47,8 @@ HeightField::HeightField(const HeightField& other)
       slots_(zeros(tile_count())),
       tiles_(other.tiles_),
       disturbed_(other.disturbed_),
-      tool_walls_(other.tool_walls_) {
+      tool_walls_(other.tool_walls_),
+      ground_(other.ground_) {
   const auto all = static_cast<std::size_t>(tile_count());
   if (tiles_.size() > all / 8) {
     std::copy_n(other.slots_.get(), all, slots_.get());
@@ -71,6 +73,30 @@ std::uint64_t HeightField::beyond_wall(int tile, int row_in_tile) const {
 
 HeightField HeightField::untouched_bed() const {
   return HeightField(rows(), cols(), cell_size(), untouched_, shape());
+}
+
+void HeightField::lie_on(std::shared_ptr<const Ground> ground) {
+  ground_ = std::move(ground);
+  if (!ground_) return;
+  std::array<double, tile_area> floor, heights;
+  for (int tile = 0; tile < tile_count(); ++tile) {
+    ground_->floor.read_tile(tile, floor.data());
+    read_tile(tile, heights.data());
+    const CellRange cells = tile_cells(tile);
+    int slot = slot_of(tile);
+    for (int row = 0; row < cells.rows(); ++row)
+      for (int col = 0; col < cells.cols(); ++col) {
+        const int at = row * tile_side + col;
+        if (heights[at] >= floor[at]) continue;
+        if (slot < 0) slot = allocate(tile);
+        tile_heights(slot)[at] = floor[at];
+        mark_disturbed(slot, row, std::uint64_t{1} << col);
+      }
+  }
+}
+
+double HeightField::floor(int row, int col) const {
+  return ground_ ? ground_->floor(row, col) : -std::numeric_limits<double>::infinity();
 }
 
 int HeightField::make_tile(int tile) {

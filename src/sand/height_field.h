@@ -17,6 +17,8 @@
 
 namespace sandstroke {
 
+struct Ground;
+
 /// Some cells of a row of a tile: bit c is column c.
 struct RowCells {
   int slot, row_in_tile;
@@ -76,6 +78,15 @@ class HeightField : public BedGeometry {
   }
 
   const SurfaceRule& untouched() const { return *untouched_; }
+
+  /// Lays the bed on a ground (sand/ground.h) of the same cells. Sand below its floor is lifted onto it, so
+  /// that these cells are bare.
+  void lie_on(std::shared_ptr<const Ground> ground);
+  /// Null: none, the sand is as deep as may be, and of one kind.
+  const Ground* ground() const { return ground_.get(); }
+  const std::shared_ptr<const Ground>& shared_ground() const { return ground_; }
+  /// The floor under a cell [m]; -infinity where there is none.
+  double floor(int row, int col) const;
   /// The same bed with no tile allocated: the rule gives all heights.
   HeightField untouched_bed() const;
 
@@ -186,6 +197,7 @@ class HeightField : public BedGeometry {
   std::vector<SharedUntilWritten<Tile>> tiles_;
   std::vector<int> disturbed_;
   std::vector<RowCells> tool_walls_;
+  std::shared_ptr<const Ground> ground_;
 };
 
 /// The hash of all heights: of allocated tiles, and of some cells that the rule gives.
