@@ -25,6 +25,17 @@ using WallGrid = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMa
 ///              differences, one-sided at walls.
 enum class RelaxationLaw { paper, isotropic, faces };
 
+/// On a ground (TalusGround), T of two neighbours is the mean of theirs, as tan. With w = T of the law over
+/// that mean:
+///   paper:     T_i is that mean, times the distance in cells
+///   isotropic: gx = max(0, w (m - west), w (m - east))/dx, and so on: each slope as a part of what it may be
+///   faces:     so with the slope along the face's normal, and with each difference across it. No height
+///   counts
+///              there as higher over its neighbour than twice its sand: stone that stands up beside a face is
+///              no slope of sand.
+/// A cell gives at most its sand z = m - s: what it gives is scaled by min(1, z / sum of it). A cell whose
+/// sand is thinner than 2^-32 cells gives nothing, and its slopes do not count.
+
 /// tan(talus angle [deg]): rise over run.
 double talus_slope(double talus_angle);
 
@@ -36,6 +47,14 @@ struct TalusLaw {
   double diagonal_drop;  ///< T of a diagonal neighbour: tan(talus) sqrt(2) dx
   double axis_limit;     ///< a cell with a larger drop gives: T (1 + tolerance)
   double diagonal_limit;
+  double tolerated;         ///< 1 + tolerance
+  double thinnest;          ///< m: thinner sand on a floor counts as none
+  double most_given = 1.0;  ///< how many times its sand a cell may give in a pass
+};
+/// Of each cell of a bed:
+struct TalusGround {
+  HeightGrid axis_drops;  ///< T of an axis neighbour of the same kind [m]: tan(talus) dx
+  HeightGrid floor;       ///< s [m], which no sand gets below; -infinity: none
 };
 /// talus_angle [deg]. tolerance: a fraction of tan(talus). cell_size [m].
 TalusLaw talus_law(RelaxationLaw law, double share, double talus_angle, double tolerance, double cell_size);
@@ -49,8 +68,8 @@ struct TalusPass {
 
 /// One pass over all cells at once, from the old heights to the new: the talus condition and what it moves.
 /// Adds the heights [m] that cells give to `moved`. Nothing crosses the border, nor gets into or out of
-/// walls.
-TalusPass talus_pass(const HeightGrid& heights, const WallGrid& walls, const TalusLaw& law,
-                     CompensatedSum& moved);
+/// walls. ground: null where the sand is deep and of one kind.
+TalusPass talus_pass(const HeightGrid& heights, const WallGrid& walls, const TalusGround* ground,
+                     const TalusLaw& law, CompensatedSum& moved);
 
 }  // namespace sandstroke

@@ -1,10 +1,12 @@
 #include "sand/active_sand.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "sand/slope_kernels.h"
 #include "sand/steep_tiles.h"
+#include "sand/super_step_kernels.h"
 
 namespace sandstroke {
 
@@ -27,6 +29,7 @@ void ActiveSand::begin(HeightField& bed) {
   cells_visited_ = 0;
   tiles_active_max_ = 0;
   wake_ups_before_ = activity_.wake_ups();
+  look_at_floor(bed);
   if (std::exchange(looks_at_all_, false)) wake_too_steep(bed);
   activity_.wake_disturbed(bed);
 }
@@ -38,14 +41,47 @@ void ActiveSand::know_slots(int count) {
   residuals_.resize(group_residuals_.size());
 }
 
-void ActiveSand::measure_residuals(const TilePatch& patch, const CellFlags& cells) {
+void ActiveSand::look_at_floor(const HeightField& bed) {
+  // What lies above the floor's level all around cannot get below it, since relaxing sand gets no lower than
+  // the lowest cell. So the level matters only once something is as low.
+  if (near_level_ || !bed.ground()) return;
+  const double level = bed.ground()->level();
+  if (level == -std::numeric_limits<double>::infinity()) return;
+  const double near = level + 2.0 * law_.thinnest;
+  const auto is_near = [&](const double* heights, const CellRange& cells) {
+    return range_of(heights, cells.rows(), cells.cols()).low <= near;
+  };
+  if (looks_at_all_) {
+    std::vector<double> heights(HeightField::tile_area);
+    for (int tile = 0; tile < bed.tile_count() && !near_level_; ++tile) {
+      bed.read_tile(tile, heights.data());
+      near_level_ = is_near(heights.data(), bed.tile_cells(tile));
+    }
+    return;
+  }
+  for (const int slot : bed.disturbed_tiles())
+    near_level_ = near_level_ || is_near(bed.tile_heights(slot), bed.tile_cells(bed.tile_of(slot)));
+}
+
+void load_ground(const HeightField& bed, int tile, bool near_level, std::unique_ptr<GroundPatch>& patch) {
+  const Ground* ground = bed.ground();
+  if (!ground || !(near_level || ground->has_floor_around(tile) || ground->has_slopes_around(tile)))
+    return patch.reset();
+  if (!patch) patch = std::make_unique<GroundPatch>();
+  patch->load(bed.shared_ground(), tile, near_level);
+}
+
+void ActiveSand::measure_residuals(const TilePatch& patch, const GroundPatch* ground,
+                                   const CellFlags& cells) {
   Residuals& groups = group_residuals_[patch.slot()].write();
-  compute_residuals(law_, patch, cells, groups.data());
+  compute_residuals(law_, patch, ground, cells, groups.data());
   residuals_[patch.slot()] = std::max(0.0, *std::max_element(groups.begin(), groups.end()));
 }
 
 void ActiveSand::wake_too_steep(HeightField& bed) {
-  visit_steep_tiles(bed, stable_slope_, [&](int tile) { bed.allocate(tile); });
+  const double part =
+      bed.ground() ? std::min(1.0, bed.ground()->flattest() / law_.axis_drop * bed.cell_size()) : 1.0;
+  visit_steep_tiles(bed, stable_slope_ * part, [&](int tile) { bed.allocate(tile); });
   const int existing = bed.allocated_tiles();
   for (int slot = 0; slot < existing; ++slot) bed.allocate_around(bed.tile_of(slot));
   const int tiles = bed.allocated_tiles();
@@ -57,7 +93,9 @@ void ActiveSand::wake_too_steep(HeightField& bed) {
     const CellRange inside = bed.tile_cells(bed.tile_of(slot));
     CellFlags cells{};
     std::fill_n(cells.begin(), inside.rows(), columns_between(0, inside.cols()));
-    measure_residuals(patch, cells);
+    thread_local std::unique_ptr<GroundPatch> ground;
+    load_ground(bed, bed.tile_of(slot), near_level_, ground);
+    measure_residuals(patch, ground.get(), cells);
   });
   // A little less, since laws do not compare slopes as fractions.
   const double limit = tolerance_ - 1e-12;
@@ -79,6 +117,7 @@ void ActiveSand::take_part(const HeightField& bed, int slot) {
   numbers_[slot] = static_cast<int>(joined_++);
   if (tiles_.size() < joined_) tiles_.add();
   tile(slot).patch.begin(slot);
+  load_ground(bed, bed.tile_of(slot), near_level_, tile(slot).ground);
   if (talus_factors_)
     load_slope_weights(bed.tile_of(slot), tile(slot).slope_weights);
   else
@@ -111,11 +150,8 @@ void ActiveSand::load_rim(const HeightField& bed, TilePatch& patch, RowSpan rows
       columns_of(cells, {std::max(rows.begin, 0), std::min(rows.end, TilePatch::side)});
   constexpr int near = cells_per_group + 1;
   patch.load_rim(bed, rows, (seen & columns_between(0, near)) != 0,
-                 (seen & columns_between(TilePatch::side - near, TilePatch::side)) != 0, [this](int slot) {
-                   const bool takes_part =
-                       static_cast<std::size_t>(slot) < numbers_.size() && numbers_[slot] >= 0;
-                   return takes_part ? &tile(slot).patch : nullptr;
-                 });
+                 (seen & columns_between(TilePatch::side - near, TilePatch::side)) != 0,
+                 [this](int slot) { return takes_part(slot) ? &tile(slot).patch : nullptr; });
 }
 
 void ActiveSand::load_givers(const HeightField& bed, int slot, RowSpan rows, FlowScratch& scratch) const {
@@ -155,7 +191,7 @@ void ActiveSand::end(HeightField& bed, RelaxationOutcome& outcome) {
     const RowSpan around{rows.begin - TilePatch::rim, rows.end + TilePatch::rim};
     patch.load_rows(bed, around);
     patch.load_rim(bed, around, true, true, [](int) { return nullptr; });
-    measure_residuals(patch, seen);
+    measure_residuals(patch, tiles_[i].ground.get(), seen);
   });
   for (std::size_t i = 0; i < joined_; ++i) {
     numbers_[tiles_[i].patch.slot()] = -1;
@@ -174,6 +210,7 @@ void ActiveSand::end(HeightField& bed, RelaxationOutcome& outcome) {
 
 void ActiveSand::visit_state(StateVisitor& state) {
   state.value("relaxation.looks_at_all", looks_at_all_);
+  state.value("relaxation.near_level", near_level_);
   state.list("relaxation.residuals", residuals_);
   if (state.restores()) {
     numbers_.clear();

@@ -20,6 +20,7 @@ struct RelaxedTile {
   TileFlow flow;                             ///< flow of the last pass
   CellFlags changed;                         ///< cells that the last pass changed, in the flow's rows
   std::unique_ptr<TilePatch> slope_weights;  ///< 1 / talus factor^2, if the sand has such factors
+  std::unique_ptr<GroundPatch> ground;       ///< null: the sand is deep and of one kind
 };
 
 /// The sand that the first relaxation of a bed wakes: what is too steep and what was disturbed; or only the
@@ -57,6 +58,9 @@ class ActiveSand {
   const CellFlags& cells(int slot) const { return activity_.cells(slot); }
   std::int64_t active_cells() const { return active_cells_; }  ///< in the last compute_flow()
   void rest() { activity_.rest(); }                            ///< nothing is active any more
+  bool takes_part(int slot) const {
+    return static_cast<std::size_t>(slot) < numbers_.size() && numbers_[slot] >= 0;
+  }
   /// Each tile gets a number when it joins a relaxation, so that a stepper can keep data for it.
   std::size_t number_of(int slot) const { return static_cast<std::size_t>(numbers_[slot]); }
   std::size_t joined() const { return joined_; }  ///< how many have
@@ -113,7 +117,8 @@ class ActiveSand {
     parallel_for(tiles().size(), work_ >= worth_threads_, [&](std::size_t i) { body(tiles()[i]); });
   }
   void know_slots(int count);
-  void measure_residuals(const TilePatch& patch, const CellFlags& cells);
+  void measure_residuals(const TilePatch& patch, const GroundPatch* ground, const CellFlags& cells);
+  void look_at_floor(const HeightField& bed);
   void wake_too_steep(HeightField& bed);
   void take_part(const HeightField& bed, int slot);
   void load_slope_weights(int tile, std::unique_ptr<TilePatch>& weights);
@@ -126,7 +131,8 @@ class ActiveSand {
   std::int64_t worth_threads_;
   double stable_slope_;  // rise over run
   HeightField* talus_factors_;
-  bool looks_at_all_;  // at the next begin()
+  bool looks_at_all_;        // at the next begin()
+  bool near_level_ = false;  // sand is, or was, as low as the level of the ground's floor
   TileActivity activity_;
 
   // Tiles of this relaxation, by number. Those beyond joined_ are left from earlier ones.
@@ -142,6 +148,9 @@ class ActiveSand {
   std::int64_t active_cells_ = 0, work_ = 0, cells_visited_ = 0, wake_ups_before_ = 0;
   int tiles_active_max_ = 0;
 };
+
+/// Lays out in `patch` the ground under a tile (by index); null where it makes no difference.
+void load_ground(const HeightField& bed, int tile, bool near_level, std::unique_ptr<GroundPatch>& patch);
 
 template <class InStep, class Join>
 double ActiveSand::compute_flow(HeightField& bed, const InStep& in_step, const Join& join) {
@@ -162,6 +171,7 @@ double ActiveSand::compute_flow(HeightField& bed, const InStep& in_step, const J
     FlowScratch& scratch = FlowScratch::of_this_thread();
     FlowInStep step = in_step(slot, one);
     step.slope_weights = one.slope_weights.get();
+    step.ground = one.ground.get();
     if (step.first) load_givers(bed, slot, activity_.rows(slot), scratch);
     sandstroke::compute_flow(law_, one.patch, cells(slot), activity_.rows(slot), step, scratch, one.flow);
   });

@@ -12,6 +12,19 @@ HWY_BEFORE_NAMESPACE();
 namespace sandstroke {
 namespace HWY_NAMESPACE {
 
+/// The drop through a face, or more of it where the giver falls by `behind` > 0 to its other side, too.
+HWY_INLINE V with_crest(V fall, V behind) {
+  const Mask crest = behind > hn::Zero(d);
+  if (hn::AllFalse(d, crest)) return fall;
+  const V low = Min(fall, behind), high = Max(fall, behind);
+  return fall + where(crest, low * low / (all(3.0) * high));
+}
+/// dx times the slope at a cell: central, or towards the only neighbour that is no wall.
+HWY_INLINE V central_difference(V m, V before, Mask has_before, V after, Mask has_after) {
+  const V rise = hn::IfThenElse(has_after, after, m) - hn::IfThenElse(has_before, before, m);
+  return rise * hn::IfThenElse(hn::And(has_before, has_after), all(0.5), all(1.0));
+}
+
 /// The slope at the face between a cell and its neighbour one step `along`: right of it, or below.
 struct FaceSlope {
   V drop;    ///< to the neighbour; NaN at a wall
@@ -24,11 +37,7 @@ struct FaceSlope {
     // The giver's drop to its other side; above 0 if the giver is a crest.
     const V behind = Max(zero, hn::IfThenElse(drop > zero, m - hn::LoadU(d, cell - along),
                                               next - hn::LoadU(d, cell + 2 * along)));
-    V slope = fall;
-    if (const Mask crest = behind > zero; !hn::AllFalse(d, crest)) {
-      const V low = Min(fall, behind), high = Max(fall, behind);
-      slope += where(crest, low * low / (all(3.0) * high));
-    }
+    const V slope = with_crest(fall, behind);
     const V sideways = all(0.5) * (slope_across(m, cell, across) + slope_across(next, cell + along, across));
     square = hn::IfThenElse(fall > zero, slope * slope + sideways * sideways, zero);
   }
@@ -37,9 +46,7 @@ struct FaceSlope {
   /// dx times the slope across the face: central, or towards the only neighbour that is no wall.
   static HWY_INLINE V slope_across(V m, const double* cell, std::ptrdiff_t across) {
     const V before = hn::LoadU(d, cell - across), after = hn::LoadU(d, cell + across);
-    const Mask has_before = before == before, has_after = after == after;
-    const V rise = hn::IfThenElse(has_after, after, m) - hn::IfThenElse(has_before, before, m);
-    return rise * hn::IfThenElse(hn::And(has_before, has_after), all(0.5), all(1.0));
+    return central_difference(m, before, before == before, after, after == after);
   }
 };
 
@@ -114,11 +121,11 @@ class FaceFluxes {
   FlowScratch& scratch_;
 };
 
-template <class Sand, class Sink>
-HWY_INLINE void face_flow(const TalusLaw& law, const TilePatch& patch, const CellFlags& active, RowSpan rows,
-                          Sand& sand, Sink& sink, FlowScratch& scratch, TileFlow& flow) {
+/// Sweeps over the active rows with the fluxes that `faces` gives.
+template <class Faces, class Sand, class Sink>
+HWY_INLINE void sweep_faces(Faces& faces, const TalusLaw& law, const CellFlags& active, RowSpan rows,
+                            Sand& sand, Sink& sink, TileFlow& flow) {
   const auto active_row = [&](int row) { return row < rows.begin || row >= rows.end ? 0 : active[row]; };
-  FaceFluxes<Sand> faces(law, patch, sand, scratch);
   std::uint64_t below = faces.downwards(rows.begin - 1, active_row(rows.begin));
   const auto cells_of = [&](int row) {
     const RightFaces beside = faces.to_the_right(row, active[row]);
@@ -135,6 +142,13 @@ HWY_INLINE void face_flow(const TalusLaw& law, const TilePatch& patch, const Cel
     given.add(c, where(cells, out));
     return where(cells, (west - east) + (north - south));
   });
+}
+
+template <class Sand, class Sink>
+HWY_INLINE void face_flow(const TalusLaw& law, const TilePatch& patch, const CellFlags& active, RowSpan rows,
+                          Sand& sand, Sink& sink, FlowScratch& scratch, TileFlow& flow) {
+  FaceFluxes<Sand> faces(law, patch, sand, scratch);
+  sweep_faces(faces, law, active, rows, sand, sink, flow);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -34,6 +34,20 @@ struct Drops {
   HWY_INLINE Drops() : axis(hn::Zero(d)), diagonal(hn::Zero(d)) {}
 };
 
+/// Flags of a row's cells, and of the rim cell on each side.
+using WideRow = FlowScratch::Row;
+HWY_INLINE WideRow widened(std::uint64_t row) {
+  return {row | row << 1 | row >> 1, (row & 1) != 0, row >> (side - 1) != 0};
+}
+
+/// The flagged cells of a row from column c on.
+HWY_INLINE Mask cells_from(const WideRow& flags, int c) {
+  const std::uint64_t west = flags.west, east = flags.east;
+  if (c < 0) return lanes_of(west << (-c - 1) | flags.own << -c);
+  if (c >= side) return lanes_of(east >> (c - side));
+  return lanes_of(c == 0 ? flags.own : flags.own >> c | east << (side - c));
+}
+
 // The following types say which cells may give, and what is recorded besides.
 
 /// Plain passes: every cell may give, and nothing is recorded.
@@ -51,14 +65,7 @@ class SteppedSand {
  public:
   SteppedSand(const FirstFlow& first, const FlowScratch& scratch)
       : first_(first), givers_(scratch.givers.data()), difference_(hn::Zero(d)) {}
-  /// The cells of a row, from column c on, that may give.
-  HWY_INLINE Mask may_give(int row, int c) const {
-    const FlowScratch::Row& flags = givers_[row + 1];
-    const std::uint64_t west = flags.west, east = flags.east;
-    if (c < 0) return lanes_of(west << (-c - 1) | flags.own << -c);
-    if (c >= side) return lanes_of(east >> (c - side));
-    return lanes_of(c == 0 ? flags.own : flags.own >> c | east << (side - c));
-  }
+  HWY_INLINE Mask may_give(int row, int c) const { return cells_from(givers_[row + 1], c); }
   HWY_INLINE void meet(V axis, V diagonal) {
     steepest_.axis = higher(axis, steepest_.axis);
     steepest_.diagonal = higher(diagonal, steepest_.diagonal);
@@ -96,6 +103,14 @@ class SteppedSand {
   LaneSum product_;
 };
 
+/// Super-steps over a floor: what counts of a cell's gain is told afterwards (count_flows).
+class SteppedOverFloor : public SteppedSand {
+ public:
+  using SteppedSand::SteppedSand;
+  HWY_INLINE void flows(int, int, V) {}
+  HWY_INLINE void report(const TalusLaw&, TileFlow&) {}
+};
+
 // The following types say where the gains of the active cells go.
 
 /// Keeps the gains in the flow.
@@ -109,6 +124,14 @@ class KeptGain {
 
  private:
   double *gain_, *row_ = nullptr;
+};
+
+/// Drops the gains.
+struct NoGain {
+  HWY_INLINE void begin_row(int, std::uint64_t) {}
+  HWY_INLINE void take(int, V) {}
+  HWY_INLINE void end_row(int, unsigned) {}
+  HWY_INLINE void end(RowSpan) {}
 };
 
 /// Takes the stage ahead with them, as super_stage does, but writes it into the other heights (tile.before).

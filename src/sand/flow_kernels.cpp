@@ -12,6 +12,8 @@
 #include <hwy/highway.h>
 
 #include "sand/face_flow-inl.h"
+#include "sand/face_flow_on_ground-inl.h"
+#include "sand/law_on_ground-inl.h"
 #include "sand/slopes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -86,12 +88,6 @@ struct IsotropicFactors {
   }
 };
 
-/// Flags of a row's cells, and of the rim cell on each side.
-using WideRow = FlowScratch::Row;
-HWY_INLINE WideRow widened(std::uint64_t row) {
-  return {row | row << 1 | row >> 1, (row & 1) != 0, row >> (side - 1) != 0};
-}
-
 /// Computes the factors of a row's flagged groups. (Others keep their old factors, which no active cell
 /// sees.) Returns the cells whose factor is not 0.
 template <class Factors, class Sand>
@@ -113,16 +109,6 @@ HWY_INLINE WideRow factor_row(const Factors& factors_of, const double* heights, 
   return moving;
 }
 
-/// Flow from a cell to one neighbour (out) and back (in, negative); at most one of them is not 0.
-struct Exchange {
-  V out, in;
-};
-HWY_INLINE Exchange exchange(V m, V factor, V neighbour, V neighbour_factor, V threshold, V negative) {
-  const V drop = m - neighbour;
-  return {where(drop > threshold, factor * drop), where(drop < negative, neighbour_factor * drop)};
-}
-HWY_INLINE Exchange operator+(const Exchange& a, const Exchange& b) { return {a.out + b.out, a.in + b.in}; }
-
 template <bool diagonals>
 struct GainOf {
   V T, minus_T, D, minus_D;
@@ -133,7 +119,8 @@ struct GainOf {
         minus_D(hn::Neg(D)) {}
 
   /// Returns inflow less outflow of the flagged cells; adds the outflow to `given`.
-  HWY_INLINE V operator()(const double* row, const double* factors, int c, Mask cells, LaneSum& given) const {
+  HWY_INLINE V operator()(const double* row, const double* factors, int, int c, Mask cells,
+                          LaneSum& given) const {
     const Around m(row, c), f(factors, c);
     const auto axis = [&](V m_i, V f_i) { return exchange(m.m, f.m, m_i, f_i, T, minus_T); };
     Exchange flow = (axis(m.w, f.w) + axis(m.e, f.e)) + (axis(m.n, f.n) + axis(m.s, f.s));
@@ -148,8 +135,8 @@ struct GainOf {
   }
 };
 
-template <class Gain, class Factors, class Sand, class Sink>
-HWY_INLINE void flow_of(const Factors& factors, const TalusLaw& law, const TilePatch& patch,
+template <class Factors, class Gain, class Sand, class Sink>
+HWY_INLINE void flow_of(const Factors& factors, const Gain& gain, const TalusLaw& law, const TilePatch& patch,
                         const CellFlags& active, RowSpan rows, Sand& sand, Sink& sink, FlowScratch& scratch,
                         TileFlow& flow) {
   const auto active_row = [&](int row) { return row < rows.begin || row >= rows.end ? 0 : active[row]; };
@@ -159,7 +146,6 @@ HWY_INLINE void flow_of(const Factors& factors, const TalusLaw& law, const TileP
     moving[row + 1] = factor_row(factors, patch.heights(row), factors_in(row), row,
                                  widened(active_row(row - 1) | active_row(row) | active_row(row + 1)), sand);
 
-  const Gain gain(law);
   const auto cells_of = [&](int row) {
     const WideRow &n = moving[row], &m = moving[row + 1], &s = moving[row + 2];
     const std::uint64_t own = n.own | m.own | s.own;
@@ -167,41 +153,126 @@ HWY_INLINE void flow_of(const Factors& factors, const TalusLaw& law, const TileP
     return own | own << 1 | own >> 1 | west | east << (side - 1);
   };
   sweep_rows(law, active, rows, sand, sink, flow, cells_of, [&](int row, int c, Mask cells, LaneSum& given) {
-    return gain(patch.heights(row), factors_in(row), c, cells, given);
+    return gain(patch.heights(row), factors_in(row), row, c, cells, given);
   });
+}
+
+template <class Sand, class Sink>
+HWY_INLINE void flow_on_ground(const TalusLaw& law, const TilePatch& patch, const CellFlags& active,
+                               RowSpan rows, const GroundPatch& ground, Sand& sand, Sink& sink,
+                               FlowScratch& scratch, TileFlow& flow) {
+  scratch.films = {};
+  switch (law.law) {
+    case RelaxationLaw::paper:
+      return flow_of(PaperOnGround(law, ground), PaperGainOnGround(law, ground), law, patch, active, rows,
+                     sand, sink, scratch, flow);
+    case RelaxationLaw::isotropic:
+      return flow_of(IsotropicOnGround(law, ground, scratch), GainOf<false>(law), law, patch, active, rows,
+                     sand, sink, scratch, flow);
+    case RelaxationLaw::faces:
+      return face_flow_on_ground(law, patch, active, rows, ground, sand, sink, scratch, flow);
+  }
+}
+
+/// Keeps what flows through the faces of the cells that moved. A face through which sand flows is beside two
+/// of them.
+void keep_fluxes(const TalusLaw& law, const TilePatch& patch, const TileFlow& flow,
+                 const FlowScratch& scratch, TileFluxes& fluxes) {
+  clear_fluxes(fluxes);
+  const auto keep = [&](int row, int c, Mask cells, int down) {
+    const auto at = [&](const auto& values, int r, int col) {
+      return hn::LoadU(d, values.data() + TilePatch::start(r) + col);
+    };
+    const int next_row = row + down, next_col = c + 1 - down;
+    V flux;
+    if (law.law == RelaxationLaw::faces) {
+      flux = at(down ? scratch.below : scratch.factors, row, c);
+    } else {
+      const V drop = hn::LoadU(d, patch.heights(row) + c) - hn::LoadU(d, patch.heights(next_row) + next_col);
+      flux = exchanged(drop, at(scratch.factors, row, c), at(scratch.factors, next_row, next_col));
+    }
+    PatchHeights& out = down ? *fluxes.below : *fluxes.right;
+    hn::Store(where(hn::And(cells, flux == flux), flux), d, out.row(row) + c);
+  };
+  for (int row = flow.rows.begin; row < flow.rows.end; ++row) {
+    const std::uint64_t moved = flow.moved[row];
+    if (row == 0) for_vectors(groups_of(moved), [&](int c) { keep(-1, c, lanes_of(moved >> c), 1); });
+    if (moved & 1)
+      for (int c = -group; c < 0; c += lanes)
+        keep(row, c, lanes_of(c + lanes == 0 ? std::uint64_t{1} << (lanes - 1) : 0), 0);
+    for_vectors(groups_of(moved), [&](int c) {
+      keep(row, c, lanes_of(moved >> c), 0);
+      keep(row, c, lanes_of(moved >> c), 1);
+    });
+  }
+}
+
+/// Tells the step's controller what cells gain, but for films and what they give.
+void count_flows(const TileFluxes& fluxes, const FlowScratch& scratch, const TalusLaw& law, SteppedSand& sand,
+                 TileFlow& flow) {
+  const V zero = hn::Zero(d);
+  for (int row = flow.rows.begin; row < flow.rows.end; ++row)
+    for_vectors(groups_of(flow.moved[row]), [&](int c) {
+      const auto film = [&](int r, int col) { return cells_from(scratch.films[r + 1], col); };
+      const double *right = fluxes.right->row(row) + c, *below = fluxes.below->row(row) + c;
+      V east = hn::Load(d, right), west = hn::LoadU(d, right - 1);
+      V south = hn::Load(d, below), north = hn::Load(d, below - TilePatch::stride);
+      east = hn::IfThenZeroElse(hn::And(east < zero, film(row, c + 1)), east);
+      west = hn::IfThenZeroElse(hn::And(west > zero, film(row, c - 1)), west);
+      south = hn::IfThenZeroElse(hn::And(south < zero, film(row + 1, c)), south);
+      north = hn::IfThenZeroElse(hn::And(north > zero, film(row - 1, c)), north);
+      const V gain = hn::IfThenZeroElse(film(row, c), (west - east) + (north - south));
+      hn::Store(gain, d, flow.gain.data() + row * side + c);
+      sand.flows(row, c, gain);
+    });
+  sand.report(law, flow);
 }
 
 void ComputeFlow(const TalusLaw& law, const TilePatch& patch, const CellFlags& active, RowSpan rows,
                  const FlowInStep& in_step, FlowScratch& scratch, TileFlow& flow) {
   const auto compute = [&](auto sand, auto sink) {
+    if (in_step.ground)
+      return flow_on_ground(law, patch, active, rows, *in_step.ground, sand, sink, scratch, flow);
     switch (law.law) {
       case RelaxationLaw::paper:
-        return flow_of<GainOf<true>>(PaperFactors(law), law, patch, active, rows, sand, sink, scratch, flow);
+        return flow_of(PaperFactors(law), GainOf<true>(law), law, patch, active, rows, sand, sink, scratch,
+                       flow);
       case RelaxationLaw::isotropic:
         if (in_step.slope_weights)
-          return flow_of<GainOf<false>>(IsotropicFactors<true>(law, in_step.slope_weights), law, patch,
-                                        active, rows, sand, sink, scratch, flow);
-        return flow_of<GainOf<false>>(IsotropicFactors<false>(law), law, patch, active, rows, sand, sink,
-                                      scratch, flow);
+          return flow_of(IsotropicFactors<true>(law, in_step.slope_weights), GainOf<false>(law), law, patch,
+                         active, rows, sand, sink, scratch, flow);
+        return flow_of(IsotropicFactors<false>(law), GainOf<false>(law), law, patch, active, rows, sand, sink,
+                       scratch, flow);
       case RelaxationLaw::faces:
         return face_flow(law, patch, active, rows, sand, sink, scratch, flow);
     }
   };
-  if (!in_step.first)
+  if (!in_step.first) {
     compute(FreeSand{}, KeptGain(flow));
-  else if (!in_step.ahead)
+  } else if (in_step.fluxes) {
+    SteppedOverFloor sand(*in_step.first, scratch);
+    NoGain sink;
+    flow_on_ground(law, patch, active, rows, *in_step.ground, sand, sink, scratch, flow);
+    keep_fluxes(law, patch, flow, scratch, *in_step.fluxes);
+    count_flows(*in_step.fluxes, scratch, law, sand, flow);
+  } else if (!in_step.ahead) {
     compute(SteppedSand(*in_step.first, scratch), KeptGain(flow));
-  else
+  } else {
     compute(SteppedSand(*in_step.first, scratch), TakenStage(patch, *in_step.ahead));
+  }
 }
 
-void ApplyFlow(const TileFlow& flow, TilePatch& patch, CellFlags& changed) {
+void ApplyFlow(const TileFlow& flow, const GroundPatch* ground, TilePatch& patch, CellFlags& changed) {
   for (int row = flow.rows.begin; row < flow.rows.end; ++row) {
     std::uint64_t flags = 0;
     for_vectors(groups_of(flow.moved[row]), [&](int c) {
       double* cell = patch.heights(row) + c;
       const V old = hn::Load(d, cell);
-      const V next = old + hn::Load(d, flow.gain.data() + row * side + c);
+      V next = old + hn::Load(d, flow.gain.data() + row * side + c);
+      if (ground) {
+        const V floor = hn::Load(d, ground->floor.row(row) + c);
+        next = hn::IfThenElse(next < floor, floor, next);  // walls stay NaN
+      }
       hn::Store(next, d, cell);
       flags |= static_cast<std::uint64_t>(bits(next != old)) << c;
     });
@@ -228,8 +299,8 @@ void compute_flow(const TalusLaw& law, const TilePatch& patch, const CellFlags& 
                   const FlowInStep& in_step, FlowScratch& scratch, TileFlow& flow) {
   HWY_DYNAMIC_DISPATCH(ComputeFlow)(law, patch, active, rows, in_step, scratch, flow);
 }
-void apply_flow(const TileFlow& flow, TilePatch& patch, CellFlags& changed) {
-  HWY_DYNAMIC_DISPATCH(ApplyFlow)(flow, patch, changed);
+void apply_flow(const TileFlow& flow, const GroundPatch* ground, TilePatch& patch, CellFlags& changed) {
+  HWY_DYNAMIC_DISPATCH(ApplyFlow)(flow, ground, patch, changed);
 }
 
 }  // namespace sandstroke

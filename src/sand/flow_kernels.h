@@ -3,7 +3,8 @@
 #include <optional>
 
 #include "rules/talus.h"
-#include "sand/super_step_tile.h"
+#include "sand/flux_tile.h"
+#include "sand/ground_patch.h"
 
 namespace sandstroke {
 
@@ -33,6 +34,10 @@ struct FlowScratch {
     bool west, east;
   };
   std::array<Row, BedGeometry::tile_side + 2> givers;  ///< from row -1: the active rows, one on each side
+  // On a ground only:
+  /// The cells that give all they may, in a tile and one cell around it: from row -1.
+  std::array<Row, BedGeometry::tile_side + 2> films;
+  alignas(64) std::array<double, TilePatch::size> scales{};  ///< of what each cell gives (law: faces)
 
   /// Each thread has its own, so that its memory is allocated once and never shared.
   static FlowScratch& of_this_thread();
@@ -47,6 +52,11 @@ struct FlowInStep {
   std::optional<StageAhead> ahead{};  ///< set: takes this stage, and leaves flow.gain alone
   /// set (law isotropic only): what multiplies |g|^2 in each cell, so that its talus slope is another
   const TilePatch* slope_weights = nullptr;
+  const GroundPatch* ground = nullptr;  ///< null: the sand is deep and of one kind
+  /// set (over a floor, in a super-step): keeps what flows through each face. The gains are then for the
+  /// step's controller only. They leave out films, which give all they may, and what comes from these: they
+  /// pass on what they take, and tell nothing of the error of a step.
+  TileFluxes* fluxes = nullptr;
 };
 
 /// Computes the law's flow of the active cells. All of them lie in `rows`; the patch holds them and two cells
@@ -54,7 +64,8 @@ struct FlowInStep {
 void compute_flow(const TalusLaw& law, const TilePatch& patch, const CellFlags& active, RowSpan rows,
                   const FlowInStep& in_step, FlowScratch& scratch, TileFlow& flow);
 
-/// heights += gain. Flags the cells whose height changed, in the flow's rows.
-void apply_flow(const TileFlow& flow, TilePatch& patch, CellFlags& changed);
+/// heights += gain, but never below the ground's floor. Flags the cells whose height changed, in the flow's
+/// rows.
+void apply_flow(const TileFlow& flow, const GroundPatch* ground, TilePatch& patch, CellFlags& changed);
 
 }  // namespace sandstroke

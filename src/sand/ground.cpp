@@ -1,5 +1,6 @@
 #include "sand/ground.h"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 
@@ -18,6 +19,17 @@ Ground::Ground(const BedGeometry& bed, double talus_slope)
 Ground::Ground(const BedGeometry& bed, double floor_level, double talus_slope)
     : floor(level_field(bed, floor_level)), talus_slopes(level_field(bed, talus_slope)) {}
 
+double Ground::flattest() const {
+  double least = talus_slopes.untouched().highest();
+  for (int slot = 0; slot < talus_slopes.allocated_tiles(); ++slot) {
+    const CellRange cells = talus_slopes.tile_cells(talus_slopes.tile_of(slot));
+    for (int row = 0; row < cells.rows(); ++row)
+      for (int col = 0; col < cells.cols(); ++col)
+        least = std::min(least, talus_slopes.tile_heights(slot)[row * HeightField::tile_side + col]);
+  }
+  return least;
+}
+
 bool Ground::is_allocated_around(const HeightField& field, int tile) {
   for (int row_step = -1; row_step <= 1; ++row_step)
     for (int col_step = -1; col_step <= 1; ++col_step) {
@@ -25,6 +37,10 @@ bool Ground::is_allocated_around(const HeightField& field, int tile) {
       if (beside >= 0 && field.slot_of(beside) >= 0) return true;
     }
   return false;
+}
+
+TalusGround talus_ground(const Ground& ground) {
+  return {ground.talus_slopes.grid() * ground.talus_slopes.cell_size(), ground.floor.grid()};
 }
 
 }  // namespace sandstroke

@@ -18,6 +18,8 @@ struct Ground {
 
   /// The floor [m] where no tile of it is allocated.
   double level() const { return floor.untouched().highest(); }
+  /// The least talus slope (rise over run).
+  double flattest() const;
   /// Whether a tile (by index), or one beside it, has a floor of its own.
   bool has_floor_around(int tile) const { return is_allocated_around(floor, tile); }
   /// Whether a tile (by index), or one beside it, has talus slopes of its own.
@@ -26,5 +28,8 @@ struct Ground {
  private:
   static bool is_allocated_around(const HeightField& field, int tile);
 };
+
+/// The same, cell by cell.
+TalusGround talus_ground(const Ground& ground);
 
 }  // namespace sandstroke

@@ -17,7 +17,7 @@ inline constexpr const char* relaxation_law_names[] = {"paper", "isotropic", "fa
 /// of many small steps of the law in far fewer passes (relaxation_rkl.cpp). plain: talus_pass over all cells;
 /// slow, with the same bits as `passes`. Start there to write a law of your own. multilevel: rkl, helped by
 /// coarser beds where sand must move far (relaxation_multilevel.cpp); isotropic and faces only, and rkl alone
-/// on beds with walls.
+/// on beds with walls or on a ground (sand/ground.h). Over a floor, `paper` takes no super-steps.
 enum class RelaxationMethod { passes, rkl, multilevel, plain };
 inline constexpr const char* relaxation_method_names[] = {"passes", "rkl", "multilevel", "plain"};
 /// Whether a method takes super-steps.

@@ -54,9 +54,9 @@ class MultilevelRelaxer : public Relaxer {
       outcome.add(stepper_->relax_part(bed, progress, {passes, least_awake, settings_.max_passes - before},
                                        after_pass ? watcher : PassWatcher{}));
     };
-    // A coarse cell cannot be half a wall.
+    // A coarse cell cannot be half a wall, or half a stone.
     const bool has_walls = bed.shape() != BedShape::rectangle || !bed.tool_walls().empty();
-    const bool has_coarse = !has_walls && std::min(bed.rows(), bed.cols()) >= least_cells;
+    const bool has_coarse = !has_walls && !bed.ground() && std::min(bed.rows(), bed.cols()) >= least_cells;
     const bool is_coarse = talus_factors_ != nullptr;
     take(!has_coarse ? settings_.max_passes : is_coarse ? first_coarse_passes : first_passes);
     bool far_from_rest = true;

@@ -23,22 +23,16 @@
 #include "core/compensated_sum.h"
 #include "core/interrupt.h"
 #include "sand/active_sand.h"
+#include "sand/flux_tile.h"
 #include "sand/super_step_kernels.h"
 
 namespace sandstroke {
 namespace {
 
-/// The law inside a super-step: no tolerance, and its flow F is for c = 1.
-TalusLaw ungated(const RelaxationSettings& settings, double cell_size) {
-  RelaxationSettings law = settings;
-  law.tolerance = 0.0;
-  law.share = 1.0;
-  return talus_law(law, cell_size);
-}
-
 // These constants were found on cones, rough beds and furrows (checked by tests/accuracy and tests/bench). c:
 // the isotropic law's limit. It also keeps the paper's law near its small steps.
 constexpr double largest_share = 0.25;
+double share_of(const RelaxationSettings& settings) { return std::min(flow_share(settings), largest_share); }
 // A step ends when sum F F0 falls below this fraction of sum F0^2. 0.05 takes a tenth more passes; with 0
 // momentum carries sand too far.
 constexpr double decayed = 0.02;
@@ -48,13 +42,23 @@ constexpr double decayed = 0.02;
 // pass instead of 72, with the same bits.
 constexpr std::int64_t work_worth_ahead = 20'000;
 
+/// The law inside a super-step: no tolerance, and its flow F is for c = 1.
+TalusLaw ungated(const RelaxationSettings& settings, double cell_size) {
+  RelaxationSettings law = settings;
+  law.tolerance = 0.0;
+  law.share = 1.0;
+  TalusLaw inside = talus_law(law, cell_size);
+  inside.most_given = 1.0 / share_of(settings);
+  return inside;
+}
+
 class RklRelaxer : public SuperStepper {
  public:
   RklRelaxer(const RelaxationSettings& settings, double cell_size, const SandStart& start)
       : law_(talus_law(settings, cell_size)),
         step_tolerance_(settings.step_tolerance),
         max_passes_(settings.max_passes),
-        largest_share_(std::min(law_.share, largest_share)),
+        largest_share_(share_of(settings)),
         sand_(ungated(settings, cell_size), settings.tolerance, cell_size, Givers::near_changes, start) {}
 
   RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
@@ -72,7 +76,7 @@ class RklRelaxer : public SuperStepper {
     ++step_;
     taken_in_ = 0;
     travelled_ = progress.travelled;
-    too_steep_ = false;
+    too_steep_ = in_fluxes_ = false;
     const BedNow bed_now = [&]() -> const HeightField& {
       sand_.write_back(bed);
       return bed;
@@ -102,10 +106,11 @@ class RklRelaxer : public SuperStepper {
 
   struct StepTile {
     SuperStepTile kept;
-    FlowSize first{};        // size of F0, if the tile is active at the step's start
-    HeightRange range{};     // heights of the active cells after the last stage
-    std::int64_t step = -1;  // the last super-step that it took part in
-    std::int64_t pass = -1;  // the last pass in which it was active
+    FlowSize first{};                // size of F0, if the tile is active at the step's start
+    HeightRange range{};             // heights of the active cells after the last stage
+    std::int64_t step = -1;          // the last super-step that it took part in
+    std::int64_t pass = -1;          // the last pass in which it was active
+    std::unique_ptr<FluxTile> flux;  // over a floor
   };
 
  private:
@@ -138,7 +143,7 @@ class RklRelaxer : public SuperStepper {
       tau = share * (j + 1.0) * (j + 2.0) / 2.0;
       const double growth = (j + 3.0) / (j + 1.0);  // tau's, in the next stage
       const double squared = growth * growth;       // of the error
-      ahead = sand_.work() >= work_worth_ahead && foreseen * squared <= step_tolerance_;
+      ahead = !in_fluxes_ && sand_.work() >= work_worth_ahead && foreseen * squared <= step_tolerance_;
       if (ahead)
         compute_flow(bed, stage_of(j + 1, share));
       else
@@ -146,7 +151,7 @@ class RklRelaxer : public SuperStepper {
       if (!goes_on()) break;
       const FlowChange change = change_from_start();
       foreseen = 0.5 * tau * change.difference / (travelled_ + tau * first.peak) * squared;
-      if (foreseen > step_tolerance_ || change.product < decayed * first.square) {
+      if (foreseen > step_tolerance_ || change.product <= decayed * first.square) {
         if (ahead) compute_flow(bed);  // computes the gains, for the next step
         break;
       }
@@ -165,6 +170,7 @@ class RklRelaxer : public SuperStepper {
     const auto in_step = [&](int slot, RelaxedTile& relaxed) {
       StepTile& one = tile(slot);
       FlowInStep step{&one.kept.first};
+      if (one.flux) step.fluxes = &one.flux->flow;
       if (ahead)
         step.ahead.emplace(StageAhead{ahead->momentum, ahead->step, one.kept, relaxed.changed, one.range});
       return step;
@@ -183,6 +189,12 @@ class RklRelaxer : public SuperStepper {
     if (taken_in_ < sand_.joined()) {  // the tile is new in this relaxation
       ++taken_in_;
       tile(slot).step = -1;
+      const RelaxedTile& relaxed = sand_.tile(slot);
+      if (!relaxed.ground || !relaxed.ground->has_floor)
+        tile(slot).flux.reset();
+      else if (!tile(slot).flux)
+        tile(slot).flux = std::make_unique<FluxTile>();
+      in_fluxes_ |= tile(slot).flux != nullptr;
       const CellRange cells = bed.tile_cells(bed.tile_of(slot));
       const HeightRange range = range_of(bed.tile_heights(slot), cells.rows(), cells.cols());
       low_ = std::min(low_, range.low);
@@ -197,6 +209,7 @@ class RklRelaxer : public SuperStepper {
     joining.step = step_;
     joining.kept.stepped = joining.kept.same = joining.kept.first.moved = {};
     joining.kept.rows = joining.kept.first.rows = {};
+    if (joining.flux) clear_fluxes(joining.flux->stage);
   }
 
   /// Keeps the flow as F0. Returns its size.
@@ -232,10 +245,34 @@ class RklRelaxer : public SuperStepper {
 
   /// Takes one stage. Returns false if no height changed: all is at rest.
   bool advance(HeightField& bed, const Stage& stage) {
-    return sand_.advance(bed, [&](int slot, RelaxedTile& relaxed) {
-      tile(slot).range = super_stage(relaxed.flow, sand_.cells(slot), stage.momentum, stage.step,
-                                     relaxed.patch, tile(slot).kept, relaxed.changed);
+    if (in_fluxes_)
+      sand_.for_each_tile([&](int slot, RelaxedTile&) {
+        if (tile(slot).flux) advance_fluxes(stage.momentum, stage.step, *tile(slot).flux);
+      });
+    const bool moves = sand_.advance(bed, [&](int slot, RelaxedTile& relaxed) {
+      StepTile& one = tile(slot);
+      one.range = one.flux
+                      ? flux_stage(fluxes_around(bed, slot), *relaxed.ground, sand_.cells(slot),
+                                   relaxed.flow.rows, *one.flux, relaxed.patch, one.kept, relaxed.changed)
+                      : super_stage(relaxed.flow, sand_.cells(slot), stage.momentum, stage.step,
+                                    relaxed.patch, one.kept, relaxed.changed);
     });
+    if (in_fluxes_)  // only now, since neighbours read D
+      for_tiles_in_step([this](RelaxedTile&, StepTile& one) {
+        if (one.flux && one.pass == outcome_.passes) one.flux->stage.swap(one.flux->flow);
+      });
+    return moves;
+  }
+  FluxesAround fluxes_around(const HeightField& bed, int slot) {
+    FluxesAround around{};
+    for (int at = 0; at < 9; ++at) {
+      const int beside = bed.tile_beside(bed.tile_of(slot), at / 3 - 1, at % 3 - 1);
+      const int other = beside < 0 ? -1 : bed.slot_of(beside);
+      if (other < 0 || !sand_.takes_part(other) || sand_.number_of(other) >= taken_in_) continue;
+      StepTile& one = tile(other);
+      if (one.flux && one.step == step_) around[static_cast<std::size_t>(at)] = &one.flux->stage;
+    }
+    return around;
   }
   /// The same, with the stage that was already taken with the flow.
   bool go_ahead(HeightField& bed) {
@@ -284,6 +321,7 @@ class RklRelaxer : public SuperStepper {
   double travelled_ = 0.0;         // m: how far sand has moved: the sum of tau max |F0|
   double given_ = 0.0;             // m: sum of outflows of F
   bool too_steep_ = false;
+  bool in_fluxes_ = false;  // some tile takes its super-steps in flux form
 };
 
 }  // namespace

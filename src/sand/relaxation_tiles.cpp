@@ -25,8 +25,9 @@ class TileRelaxer : public Relaxer {
     sand_.begin(bed);
     while (!sand_.at_rest() && outcome.passes != max_passes_ && !interrupted()) {
       moved.add(compute_flow(bed));
-      const bool changed =
-          sand_.advance(bed, [](int, RelaxedTile& tile) { apply_flow(tile.flow, tile.patch, tile.changed); });
+      const bool changed = sand_.advance(bed, [](int, RelaxedTile& tile) {
+        apply_flow(tile.flow, tile.ground.get(), tile.patch, tile.changed);
+      });
       if (!changed) break;  // the flow that is left is below rounding
       ++outcome.passes;
       if (after_pass) after_pass(outcome.passes, bed_now);

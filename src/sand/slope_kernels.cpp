@@ -9,6 +9,8 @@
 #include <hwy/highway.h>
 
 #include "sand/face_flow-inl.h"
+#include "sand/face_flow_on_ground-inl.h"
+#include "sand/law_on_ground-inl.h"
 #include "sand/slopes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,14 +19,37 @@ namespace HWY_NAMESPACE {
 
 constexpr int groups = side / group;
 
-void ComputeResiduals(const TalusLaw& law, const TilePatch& patch, const CellFlags& cells, double* steepest) {
+/// The largest drops of a group's cells on a ground, as if T were the law's; by `paper`, as parts of T.
+Drops drops_on_ground(const TalusLaw& law, const TilePatch& patch, const GroundPatch& patch_ground, int row,
+                      int begin) {
+  const LawOnGround ground(law, patch_ground);
+  Drops drops;
+  for (int c = begin; c < begin + group; c += lanes) {
+    if (law.law == RelaxationLaw::faces) {
+      drops.axis = higher(FaceOnGround(ground, patch, row, c, 0).square, drops.axis);
+      drops.axis = higher(FaceOnGround(ground, patch, row, c, 1).square, drops.axis);
+      continue;
+    }
+    const Around a(patch.heights(row), c);
+    const Mask has_sand = ground.has_sand(ground.sand(row, c, a.m));
+    const V slope = law.law == RelaxationLaw::paper
+                        ? PaperOnGround(law, patch_ground).steepest(patch.heights(row), row, c)
+                        : squared_slope_on(ground, a, row, c);
+    drops.axis = higher(where(has_sand, slope), drops.axis);
+  }
+  return drops;
+}
+
+void ComputeResiduals(const TalusLaw& law, const TilePatch& patch, const GroundPatch* ground,
+                      const CellFlags& cells, double* steepest) {
   const bool paper = law.law == RelaxationLaw::paper, faces = law.law == RelaxationLaw::faces;
   const RowSpan span = row_span(cells);
   for (int row = span.begin; row < span.end; ++row) {
     for (unsigned wanted = groups_of(cells[row]); wanted; wanted &= wanted - 1) {
       const int g = std::countr_zero(wanted);
       Drops drops;
-      for (int c = g * group; c < (g + 1) * group; c += lanes) {
+      if (ground) drops = drops_on_ground(law, patch, *ground, row, g * group);
+      for (int c = g * group; !ground && c < (g + 1) * group; c += lanes) {
         const double* heights = patch.heights(row);
         if (faces) {  // each face counts for one cell
           drops.axis = higher(FaceSlope(heights + c, 1, TilePatch::stride).square, drops.axis);
@@ -36,8 +61,11 @@ void ComputeResiduals(const TalusLaw& law, const TilePatch& patch, const CellFla
         if (paper) drops.diagonal = higher(diagonal_drop(a.m, Corners(heights, c)), drops.diagonal);
       }
       const double axis = largest(drops.axis), diagonal = largest(drops.diagonal);
-      steepest[row * groups + g] = paper ? std::max(axis / law.axis_drop, diagonal / law.diagonal_drop) - 1.0
-                                         : std::sqrt(axis) / law.axis_drop - 1.0;
+      double& part = steepest[row * groups + g];
+      if (paper)
+        part = (ground ? axis : std::max(axis / law.axis_drop, diagonal / law.diagonal_drop)) - 1.0;
+      else
+        part = std::sqrt(axis) / law.axis_drop - 1.0;
     }
   }
 }
@@ -86,9 +114,9 @@ namespace sandstroke {
 HWY_EXPORT(ComputeResiduals);
 HWY_EXPORT(ComputeSlopes);
 
-void compute_residuals(const TalusLaw& law, const TilePatch& patch, const CellFlags& cells,
-                       double* steepest) {
-  HWY_DYNAMIC_DISPATCH(ComputeResiduals)(law, patch, cells, steepest);
+void compute_residuals(const TalusLaw& law, const TilePatch& patch, const GroundPatch* ground,
+                       const CellFlags& cells, double* steepest) {
+  HWY_DYNAMIC_DISPATCH(ComputeResiduals)(law, patch, ground, cells, steepest);
 }
 void compute_slopes(const TalusLaw& law, const TilePatch& patch, TileSlopes& slopes) {
   HWY_DYNAMIC_DISPATCH(ComputeSlopes)(law, patch, slopes);

@@ -53,6 +53,22 @@ HWY_INLINE V squared_slope(const Around& a) {
   return gx * gx + gy * gy;
 }
 
+/// Flow from a cell to one neighbour (out) and back (in, negative); at most one of them is not 0.
+struct Exchange {
+  V out, in;
+};
+HWY_INLINE Exchange exchange(V m, V factor, V neighbour, V neighbour_factor, V threshold, V negative) {
+  const V drop = m - neighbour;
+  return {where(drop > threshold, factor * drop), where(drop < negative, neighbour_factor * drop)};
+}
+HWY_INLINE Exchange operator+(const Exchange& a, const Exchange& b) { return {a.out + b.out, a.in + b.in}; }
+
+/// What flows from a cell to a neighbour this much lower, or back (negative), with the factors of both.
+HWY_INLINE V exchanged(V drop, V factor, V neighbour_factor) {
+  const V zero = hn::Zero(d);
+  return where(drop > zero, factor * drop) + where(drop < zero, neighbour_factor * drop);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace sandstroke
 HWY_AFTER_NAMESPACE();

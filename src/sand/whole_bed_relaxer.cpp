@@ -1,7 +1,10 @@
 #include "sand/whole_bed_relaxer.h"
 
+#include <optional>
+
 #include "core/interrupt.h"
 #include "sand/active_sand.h"
+#include "sand/ground.h"
 
 namespace sandstroke {
 namespace {
@@ -14,13 +17,20 @@ class PlainRelaxer : public WholeBedRelaxer {
   std::unique_ptr<Relaxer> copy() const override { return std::make_unique<PlainRelaxer>(*this); }
   void visit_state(StateVisitor& /*state*/) override {}
 
+  RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
+    ground_.reset();
+    if (bed.ground()) ground_ = talus_ground(*bed.ground());
+    return WholeBedRelaxer::relax(bed, after_pass);
+  }
+
  protected:
   TalusPass pass(const HeightGrid& heights, const WallGrid& walls, CompensatedSum& moved) const override {
-    return talus_pass(heights, walls, law_, moved);
+    return talus_pass(heights, walls, ground_ ? &*ground_ : nullptr, law_, moved);
   }
 
  private:
   TalusLaw law_;
+  std::optional<TalusGround> ground_;  // of the bed that is being relaxed
 };
 
 }  // namespace

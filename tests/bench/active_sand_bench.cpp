@@ -30,7 +30,7 @@ class EndlessPasses {
     benchmark::DoNotOptimize(sand_.compute_flow(
         bed_, [](int, RelaxedTile&) { return FlowInStep{}; }, [](int) {}));
     sand_.advance(bed_, [this](int, RelaxedTile& tile) {
-      apply_flow(tile.flow, tile.patch, tile.changed);
+      apply_flow(tile.flow, nullptr, tile.patch, tile.changed);
       tile.changed = changed_;
     });
   }

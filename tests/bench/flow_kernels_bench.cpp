@@ -73,7 +73,7 @@ void apply_bench(benchmark::State& state, std::int64_t target) {
   CellFlags changed;
   const CellClock clock;
   for (auto _ : state) {
-    apply_flow(tile.flow, tile.patch, changed);
+    apply_flow(tile.flow, nullptr, tile.patch, changed);
     benchmark::ClobberMemory();
   }
   clock.report(state, count(tile.cells));
@@ -85,7 +85,7 @@ void residuals_bench(benchmark::State& state, std::int64_t target, RelaxationLaw
   std::array<double, tile_side * tile_side / 8> steepest;
   const CellClock clock;
   for (auto _ : state) {
-    compute_residuals(tile.law, tile.patch, tile.cells, steepest.data());
+    compute_residuals(tile.law, tile.patch, nullptr, tile.cells, steepest.data());
     benchmark::ClobberMemory();
   }
   clock.report(state, count(tile.cells));
@@ -114,7 +114,7 @@ void small_patch_bench(benchmark::State& state, RelaxationLaw law) {
   for (auto _ : state) {
     tile.load();
     tile.flow_once();
-    apply_flow(tile.flow, tile.patch, changed);
+    apply_flow(tile.flow, nullptr, tile.patch, changed);
     benchmark::ClobberMemory();
   }
   clock.report(state, count(tile.cells));

@@ -1,0 +1,211 @@
+// The flow of RelaxationLaw::faces on a ground (rules/talus.h). Included once per instruction set, like
+// lanes-inl.h.
+#if defined(SANDSTROKE_SAND_FACE_FLOW_ON_GROUND_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SANDSTROKE_SAND_FACE_FLOW_ON_GROUND_INL_H_
+#undef SANDSTROKE_SAND_FACE_FLOW_ON_GROUND_INL_H_
+#else
+#define SANDSTROKE_SAND_FACE_FLOW_ON_GROUND_INL_H_
+#endif
+
+#include "sand/face_flow-inl.h"
+#include "sand/law_on_ground-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sandstroke {
+namespace HWY_NAMESPACE {
+
+/// The slope at the face to the right of a cell, or below it, on a ground.
+struct FaceOnGround {
+  V drop;      ///< to the neighbour; NaN at a wall
+  V square;    ///< the square of dx |g|, as if T were the law's; 0 where the giver has no sand
+  Mask falls;  ///< the cell gives, not its neighbour
+
+  /// row: of the cell, within the rim. down: 1 for the face below it.
+  HWY_INLINE FaceOnGround(const LawOnGround& ground, const TilePatch& patch, int row, int c, int down) {
+    constexpr int stride = TilePatch::stride;
+    const double* cell = patch.heights(row) + c;
+    const int along = down ? stride : 1, across = down ? 1 : stride;
+    const int next_row = row + down, next_col = c + 1 - down;
+    const V m = hn::LoadU(d, cell), next = hn::LoadU(d, cell + along), zero = hn::Zero(d);
+    drop = m - next;
+    falls = drop > zero;
+    const V z = ground.sand(row, c, m), next_z = ground.sand(next_row, next_col, next);
+    // A giver at the rim's outer edge gives to no cell that counts; what lies behind it is not loaded.
+    const int back = down && row == -TilePatch::rim ? 0 : along;
+    const int ahead = down && row == TilePatch::side ? along : 2 * along;
+    const V behind =
+        Max(zero, hn::IfThenElse(falls, m - hn::LoadU(d, cell - back), next - hn::LoadU(d, cell + ahead)));
+    const V w = ground.weight(hn::LoadU(d, ground.axis_drops(row) + c),
+                              hn::LoadU(d, ground.axis_drops(next_row) + next_col));
+    const V slope = with_crest(hn::Abs(drop), behind) * w;
+    const auto slope_across = [&](V here, V its_z, int r, int col) {
+      const double* at = patch.heights(r) + col;
+      const int r_step = across == 1 ? 0 : 1, col_step = across == 1 ? 1 : 0;
+      const V two = all(2.0), own_T = hn::LoadU(d, ground.axis_drops(r) + col);
+      const auto counted = [&](V there, int step) {
+        const int there_row = r + step * r_step, there_col = col + step * col_step;
+        const V z_there = ground.sand(there_row, there_col, there);
+        const V height =
+            hn::IfThenElse(there > here, Min(there, here + two * z_there), Max(there, here - two * its_z));
+        const V weight = ground.weight(own_T, hn::LoadU(d, ground.axis_drops(there_row) + there_col));
+        return hn::IfThenElse(weight == all(1.0), height, here + (height - here) * weight);
+      };
+      const V before = hn::LoadU(d, at - across), after = hn::LoadU(d, at + across);
+      return central_difference(here, counted(before, -1), before == before, counted(after, 1),
+                                after == after);
+    };
+    const V sideways =
+        all(0.5) * (slope_across(m, z, row, c) + slope_across(next, next_z, next_row, next_col));
+    const Mask has_sand = ground.has_sand(hn::IfThenElse(falls, z, next_z));
+    square = where(hn::And(has_sand, hn::Abs(drop) > zero), slope * slope + sideways * sideways);
+  }
+};
+
+/// The fluxes around the active cells, limited to what each giver has.
+template <class Sand>
+class FacesOnGround {
+ public:
+  FacesOnGround(const TalusLaw& law, const GroundPatch& ground, const TilePatch& patch,
+                const CellFlags& active, RowSpan rows, Sand& sand, FlowScratch& scratch)
+      : ground_(law, ground),
+        limit_(all(law.axis_limit)),
+        surely_at_rest_(all(law.axis_limit * law.axis_limit * (1.0 - 1e-14))),
+        share_(all(law.share)),
+        patch_(patch),
+        active_(active),
+        rows_(rows),
+        sand_(sand),
+        scratch_(scratch) {
+    // What a neighbour gives depends on all of its faces.
+    for (int row = rows.begin - 2; row <= rows.end; ++row) {
+      const WideRow cells = near(row), next = near(row + 1);
+      for_groups_of({cells.own | cells.own >> 1 | static_cast<std::uint64_t>(cells.east) << (side - 1),
+                     cells.west || (cells.own & 1) != 0, cells.east},
+                    [&](int begin) { compute(row, begin, 0); });
+      for_groups_of({cells.own | next.own, cells.west || next.west, cells.east || next.east},
+                    [&](int begin) { compute(row, begin, 1); });
+    }
+    for (int row = rows.begin - 1; row <= rows.end; ++row)
+      for_groups_of(near(row), [&](int begin) { find_scales(row, begin); });
+  }
+
+  double* right(int row) const { return scratch_.factors.data() + TilePatch::start(row); }
+  double* below(int row) const { return scratch_.below.data() + TilePatch::start(row); }
+
+  /// Limits the fluxes [m per pass] through the faces beside the flagged cells. Returns the faces through
+  /// which sand flows.
+  HWY_INLINE RightFaces to_the_right(int row, std::uint64_t cells) const {
+    RightFaces flowing{0, false};
+    if (cells & 1) flowing.west = limit(row, -group, 0) >> (group - 1) & 1;
+    for (unsigned wanted = groups_of(cells | cells >> 1); wanted; wanted &= wanted - 1) {
+      const int begin = std::countr_zero(wanted) * group;
+      flowing.own |= static_cast<std::uint64_t>(limit(row, begin, 0)) << begin;
+    }
+    return flowing;
+  }
+  HWY_INLINE std::uint64_t downwards(int row, std::uint64_t cells) const {
+    std::uint64_t flowing = 0;
+    for (unsigned wanted = groups_of(cells); wanted; wanted &= wanted - 1) {
+      const int begin = std::countr_zero(wanted) * group;
+      flowing |= static_cast<std::uint64_t>(limit(row, begin, 1)) << begin;
+    }
+    return flowing;
+  }
+
+ private:
+  HWY_INLINE std::uint64_t active_row(int row) const {
+    return row < rows_.begin || row >= rows_.end ? 0 : active_[row];
+  }
+  /// The active cells and those around them.
+  HWY_INLINE WideRow near(int row) const {
+    if (row < rows_.begin - 1 || row > rows_.end) return {};
+    return widened(active_row(row - 1) | active_row(row) | active_row(row + 1));
+  }
+  template <class Body>
+  static HWY_INLINE void for_groups_of(const WideRow& cells, const Body& body) {
+    if (cells.west) body(-group);
+    for (unsigned wanted = groups_of(cells.own); wanted; wanted &= wanted - 1)
+      body(std::countr_zero(wanted) * group);
+    if (cells.east) body(side);
+  }
+  /// Whether faces of a group are beside active cells. Of others the rim does not tell all.
+  HWY_INLINE bool is_seen(int row, int begin, int down) const {
+    const std::uint64_t cells =
+        down ? active_row(row) | active_row(row + 1) : active_row(row) | active_row(row) >> 1;
+    if (begin < 0) return !down && (active_row(row) & 1) != 0;
+    return begin < side && (groups_of(cells) >> (begin / group) & 1) != 0;
+  }
+  HWY_INLINE Mask may_give(int row, int c) const {
+    return row < -1 || row > side ? hn::FirstN(d, 0) : sand_.may_give(row, c);
+  }
+
+  /// Fluxes through the faces below eight cells (down: 1), or to the right of them (0), before the limit.
+  HWY_INLINE void compute(int row, int begin, int down) {
+    if (!down && row < rows_.begin - 1) return;
+    double* out = (down ? below(row) : right(row)) + begin;
+    const bool seen = is_seen(row, begin, down);
+    for (int c = 0; c < group; c += lanes) {
+      const FaceOnGround face(ground_, patch_, row, begin + c, down);
+      if (seen) sand_.meet(face.square, hn::Zero(d));
+      V flux = hn::Zero(d);
+      if (!hn::AllFalse(d, face.square > surely_at_rest_)) {
+        const V g = Sqrt(face.square);
+        const Mask gives = hn::Or(hn::And(face.falls, may_give(row, begin + c)),
+                                  hn::AndNot(face.falls, may_give(row + down, begin + c + 1 - down)));
+        flux = where(hn::And(gives, g > limit_), share_ * (all(1.0) - ground_.law_drop / g) * face.drop);
+      }
+      hn::Store(flux, d, out + c);
+    }
+  }
+  double* scales(int row) const { return scratch_.scales.data() + TilePatch::start(row); }
+  /// By what the fluxes out of eight cells are multiplied.
+  HWY_INLINE void find_scales(int row, int begin) {
+    const V zero = hn::Zero(d), one = all(1.0);
+    for (int c = begin; c < begin + group; c += lanes) {
+      const V east = hn::Load(d, right(row) + c), west = hn::LoadU(d, right(row) + c - 1);
+      const V south = hn::Load(d, below(row) + c), north = hn::Load(d, below(row - 1) + c);
+      const V out =
+          (Max(zero, east) + Max(zero, hn::Neg(west))) + (Max(zero, south) + Max(zero, hn::Neg(north)));
+      const V most = ground_.most_given(ground_.sand(row, c, hn::Load(d, patch_.heights(row) + c)));
+      const Mask emptied = out > most;
+      hn::Store(hn::IfThenElse(emptied, most / out, one), d, scales(row) + c);
+      flag_films(row, c, emptied, scratch_);
+    }
+  }
+  HWY_INLINE unsigned limit(int row, int begin, int down) const {
+    double* out = (down ? below(row) : right(row)) + begin;
+    const double* own = scales(row) + begin;
+    const double* next = down ? own + TilePatch::stride : own + 1;
+    unsigned flags = 0;
+    for (int c = 0; c < group; c += lanes) {
+      const V flux = hn::Load(d, out + c);
+      const Mask flows = flux != hn::Zero(d);
+      const V scale = hn::IfThenElse(flux > hn::Zero(d), hn::Load(d, own + c), hn::LoadU(d, next + c));
+      hn::Store(where(flows, flux * scale), d, out + c);
+      flags |= bits(flows) << c;
+    }
+    return flags;
+  }
+
+  LawOnGround ground_;
+  V limit_, surely_at_rest_, share_;
+  const TilePatch& patch_;
+  const CellFlags& active_;
+  RowSpan rows_;
+  Sand& sand_;
+  FlowScratch& scratch_;
+};
+
+template <class Sand, class Sink>
+HWY_INLINE void face_flow_on_ground(const TalusLaw& law, const TilePatch& patch, const CellFlags& active,
+                                    RowSpan rows, const GroundPatch& ground, Sand& sand, Sink& sink,
+                                    FlowScratch& scratch, TileFlow& flow) {
+  const FacesOnGround<Sand> faces(law, ground, patch, active, rows, sand, scratch);
+  sweep_faces(faces, law, active, rows, sand, sink, flow);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sandstroke
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+
+#include "sand/ground_patch.h"
+#include "sand/super_step_tile.h"
+
+namespace sandstroke {
+
+/// What flows through the right and the lower faces of a tile's cells, and of one row and one column before
+/// them [m]; laid out like a patch.
+struct TileFluxes {
+  std::unique_ptr<PatchHeights> right = std::make_unique<PatchHeights>(),
+                                below = std::make_unique<PatchHeights>();
+  void swap(TileFluxes& other) {
+    right.swap(other.right);
+    below.swap(other.below);
+  }
+};
+
+/// A tile in a super-step in flux form. Momentum on heights would take sand below a floor. So it goes with
+/// the fluxes, and what each cell gives is limited to what it has:
+///   D(j+1) = j/(j+1) D(j) + c (2j+1)/(j+1) f(Y(j)),  Y(j+1) = Y(j) - div (limited D(j+1)).
+struct FluxTile {
+  TileFluxes flow;   ///< f of the last compute_flow(), for c = 1; during a stage, its limited D
+  TileFluxes stage;  ///< D, during a stage; between stages, that of the last one, limited
+};
+
+/// D of a tile and of those around it, row by row; null where nothing flows. The middle one is the tile's
+/// own.
+using FluxesAround = std::array<TileFluxes*, 9>;
+
+/// Nothing flows.
+void clear_fluxes(TileFluxes& fluxes);
+
+/// stage = momentum * stage + step * flow.
+void advance_fluxes(double momentum, double step, FluxTile& tile);
+
+/// Takes the stage in the active cells' groups: limits D to what the cells have, and moves the sand. All
+/// tiles around must have been advanced. Leaves the limited D in tile.flow. Otherwise like super_stage.
+HeightRange flux_stage(const FluxesAround& around, const GroundPatch& ground, const CellFlags& active,
+                       RowSpan rows, FluxTile& tile, TilePatch& patch, SuperStepTile& kept,
+                       CellFlags& changed);
+
+}  // namespace sandstroke

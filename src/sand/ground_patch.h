@@ -1,0 +1,25 @@
+#pragma once
+
+#include <memory>
+
+#include "sand/ground.h"
+#include "sand/tile_patch.h"
+
+namespace sandstroke {
+
+/// The ground under a tile and its rim, as the kernels read it.
+struct GroundPatch {
+  PatchHeights axis_drops;  ///< T of each cell [m] (TalusGround)
+  PatchHeights floor;       ///< m; -infinity where it cannot matter
+  bool has_floor = false;   ///< the floor can matter
+
+  /// Loads a tile (by index), unless it is loaded. The level floor matters only if `near_level`.
+  void load(const std::shared_ptr<const Ground>& ground, int tile, bool near_level);
+
+ private:
+  std::shared_ptr<const Ground> ground_;
+  int tile_ = -1;
+  bool near_level_ = false;
+};
+
+}  // namespace sandstroke
