@@ -106,7 +106,7 @@ std::vector<KeySection> warning_keys() {
 std::string keys_text(const std::vector<KeySection>& sections) {
   std::string text;
   for (const KeySection& section : sections) {
-    text += section.name.empty() ? ".PP\n" : fmt::format(".SH [{}]\n", roff(section.name));
+    text += section.name.empty() ? ".PP\n" : fmt::format(".SH {}\n", roff(section.header()));
     text += filled(section.help + ".");
     for (const KeyRow& key : section.keys) {
       const std::string value = key.value.empty() ? "" : " = " + key.value;

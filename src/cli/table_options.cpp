@@ -37,6 +37,8 @@ class OptionReader : public KeyVisitor {
   // [stroke.table] uses none of these.
   void section(const char*, const char*) override {}
   bool optional_section(const char*, bool, const char*) override { return true; }
+  int tables(const char*, int count) override { return count; }
+  void table(const char*, int, const char*) override {}
   bool given(const char*) override { return false; }
   void require(const char*) override {}
   void numbers(const char*, double*, int, Range, const char*, const char*) override {}

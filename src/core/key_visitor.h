@@ -17,6 +17,10 @@ class KeyVisitor {
   virtual void section(const char* name, const char* help) = 0;
   /// A section that may be absent: true if it is there.
   virtual bool optional_section(const char* name, bool present, const char* help) = 0;
+  /// How many tables a list of them ([[name]]) has; `count` are there now.
+  virtual int tables(const char* name, int count) = 0;
+  /// The section of one table of a list, by its place, counted from 1.
+  virtual void table(const char* list, int place, const char* help) = 0;
   /// True if the next key is given, for a key whose presence says more than its value. Help lists no default.
   virtual bool given(const char* key) = 0;
   /// The next key must be given.
@@ -48,6 +52,18 @@ void choose(KeyVisitor& visitor, const char* key, Enum& value, const std::vector
   int index = static_cast<int>(value);
   visitor.choice(key, index, names, help);
   value = static_cast<Enum>(index);
+}
+
+/// A list of tables ([[name]]) whose keys `show` shows: show(visitor, one of the settings).
+template <class Settings, class Show>
+void show_tables(KeyVisitor& visitor, const char* name, std::vector<Settings>& list, const char* help,
+                 const Show& show) {
+  list.resize(static_cast<std::size_t>(visitor.tables(name, static_cast<int>(list.size()))));
+  int place = 0;
+  for (Settings& settings : list) {
+    visitor.table(name, ++place, help);
+    show(visitor, settings);
+  }
 }
 
 }  // namespace sandstroke

@@ -1,5 +1,7 @@
 #include "io/key_reader.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 
 #include "core/key_visitor.h"
@@ -19,6 +21,13 @@ class KeyReader : public KeyVisitor {
   bool optional_section(const char* name, bool, const char* help) override {
     section(name, help);
     return toml_.has(name);
+  }
+  int tables(const char* name, int count) override {
+    const int found = toml_.count_tables(name);
+    return toml_.has(name) ? found : count;
+  }
+  void table(const char* list, int place, const char* help) override {
+    section(fmt::format("{}.{}", list, place).c_str(), help);
   }
   bool given(const char* key) override { return toml_.has(prefix_ + key); }
   void require(const char* key) override { toml_.require(prefix_ + key); }

@@ -23,6 +23,10 @@ class KeyLister : public KeyVisitor {
     if (present) section(name, help);
     return present;
   }
+  int tables(const char*, int count) override { return count; }
+  void table(const char* list, int place, const char* help) override {
+    sections.push_back({fmt::format("{}.{}", list, place), help, {}, true});
+  }
   bool given(const char*) override { return no_default_ = true; }
   void require(const char*) override { no_default_ = required_ = true; }
   void number(const char* key, double& value, Range range, const char* unit, const char* help) override {
@@ -134,6 +138,10 @@ void try_choices(const ShowKeys& show, const KeyRow& by, std::vector<KeySection>
 
 }  // namespace
 
+std::string KeySection::header() const {
+  return in_list ? fmt::format("[[{}]]", name.substr(0, name.rfind('.'))) : fmt::format("[{}]", name);
+}
+
 std::string KeyRow::explanation() const {
   std::string sentence = help;
   if (!choices.empty()) sentence += fmt::format(" ({})", fmt::join(choices, " | "));
@@ -171,7 +179,7 @@ std::string key_table(const std::vector<KeySection>& sections) {
   for (const KeySection& section : sections) {
     if (!table.empty()) table += '\n';
     table +=
-        section.name.empty() ? section.help + '\n' : fmt::format("[{}]  {}\n", section.name, section.help);
+        section.name.empty() ? section.help + '\n' : fmt::format("{}  {}\n", section.header(), section.help);
     for (const KeyRow& key : section.keys)
       table += fmt::format("  {:<28} {:<14} {:<7} {}\n", key.name, key.value, key.unit, key.explanation());
   }

@@ -30,6 +30,10 @@ struct KeyRow {
 struct KeySection {
   std::string name, help;  ///< no name: at the file's top
   std::vector<KeyRow> keys;
+  bool in_list = false;  ///< one table of a list; its place ends the name: "stone.1"
+
+  /// The line above its keys: [tool], [[stone]].
+  std::string header() const;
 };
 
 /// Shows every key to the visitor.

@@ -12,6 +12,7 @@
 #include "io/input_kind.h"
 #include "io/key_reader.h"
 #include "io/scene_keys.h"
+#include "io/toml_path.h"
 #include "io/toml_reader.h"
 
 namespace sandstroke {
@@ -183,7 +184,9 @@ SceneFile combined_scene(const SceneText& text, const std::vector<std::string>& 
   return scene;
 }
 
-bool applies_conditionally(const std::string& key) { return scene_conditions().contains(key); }
+bool applies_conditionally(const std::string& key) {
+  return scene_conditions().contains(at_first_places(key));
+}
 
 SceneFile stored_scene(const std::string& text, const std::string& name) {
   const TomlReader toml = TomlReader::from_text(text, name);
@@ -209,7 +212,7 @@ std::vector<std::filesystem::path> input_files(const Scene& scene, const std::fi
 std::string scene_text(const SceneFile& scene) {
   std::string text;
   for (const KeySection& section : scene_settings(scene)) {
-    text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section.name);
+    text += fmt::format("{}{}\n", text.empty() ? "" : "\n", section.header());
     for (const KeyRow& key : section.keys) text += fmt::format("{} = {}\n", key.key(), key.value);
   }
   return text;

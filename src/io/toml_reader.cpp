@@ -11,6 +11,7 @@
 #include "core/input_file.h"
 #include "core/nearest_name.h"
 #include "io/toml_key_depth.h"
+#include "io/toml_path.h"
 
 namespace sandstroke {
 
@@ -38,6 +39,7 @@ struct TomlReader::Document {
   std::set<const toml::node*> read;
   std::set<std::string> asked_for;               // every dotted key that some reader knows
   std::map<std::string, std::string> overrides;  // dotted key -> the --set that gave it
+  std::set<std::string> lists;                   // those whose tables are named by their places
 };
 
 namespace {
@@ -76,16 +78,6 @@ bool begins_as_number(std::string_view text) {
   return begin != std::string_view::npos && text[begin] >= '0' && text[begin] <= '9';
 }
 
-std::vector<std::string> parts_of(std::string_view key) {
-  std::vector<std::string> parts;
-  while (true) {
-    const auto dot = key.find('.');
-    parts.emplace_back(key.substr(0, dot));
-    if (dot == std::string_view::npos) return parts;
-    key.remove_prefix(dot + 1);
-  }
-}
-
 /// A value as TOML text, on one line. A number has the shortest digits that give it back.
 std::string literal_of(const toml::node& node) {
   if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
@@ -95,6 +87,12 @@ std::string literal_of(const toml::node& node) {
     std::vector<std::string> elements;
     for (const toml::node& element : *array) elements.push_back(literal_of(element));
     return fmt::format("[{}]", fmt::join(elements, ", "));
+  }
+  if (const toml::table* table = node.as_table()) {
+    std::vector<std::string> entries;
+    for (const auto& [key, value] : *table)
+      entries.push_back(fmt::format("{} = {}", key.str(), literal_of(value)));
+    return fmt::format("{{ {} }}", fmt::join(entries, ", "));
   }
   std::ostringstream text;
   node.visit([&](const auto& value) { text << value; });
@@ -131,14 +129,31 @@ void TomlReader::take_out(const std::string& key) {
   if (key.find('=') != std::string::npos)
     throw_input_error("--unset {}: give only the key, without a value", key);
   check_key_depth(key, "--unset");
-  const std::vector<std::string> parts = parts_of(key);
-  toml::table* table = &document_->root;
-  for (std::size_t i = 0; table && i + 1 < parts.size(); ++i) table = table->get_as<toml::table>(parts[i]);
-  if (table && table->erase(parts.back())) return;
+  const std::vector<std::string> parts = key_parts(key);
+  toml::node* node = &document_->root;
+  for (std::size_t i = 0; node && i + 1 < parts.size(); ++i) node = child(*node, parts[i]);
+  if (node && is_list(*node) && child(*node, parts.back()))
+    throw_input_error(
+        "--unset {}: would give the tables behind it other numbers; take the table out of {}, or take out "
+        "its keys, as {}.KEY",
+        key, document_->name, key);
+  if (toml::table* table = node ? node->as_table() : nullptr; table && table->erase(parts.back())) return;
   const std::vector<std::string> keys = keys_in("");
   const std::string meant = nearest_name(key, {keys.begin(), keys.end()});
   throw_input_error("--unset {}: {} has no such key; {}", key, document_->name,
                     meant.empty() ? "leave the option out" : fmt::format("did you mean {}?", meant));
+}
+
+void TomlReader::fail_in_list(const std::string& assignment, const std::string& list,
+                              const std::string& place, std::size_t tables, bool found) const {
+  if (!is_place(place))
+    throw_input_error("--set {}: {} is a list of tables in {}; say which one, as {}.1.{}", assignment, list,
+                      document_->name, list, place);
+  const std::string key = list + "." + place;
+  if (found)
+    throw_input_error("--set {}: {} is a table; set one of its keys, as {}.KEY=value", assignment, key, key);
+  throw_input_error("--set {}: {} has {} [[{}]] {}, counted from 1, and no {}", assignment, document_->name,
+                    tables, list, tables == 1 ? "table" : "tables", key);
 }
 
 void TomlReader::override_with(const std::string& assignment) {
@@ -159,12 +174,22 @@ void TomlReader::override_with(const std::string& assignment) {
   if (parsed.size() != 1)
     throw_input_error("--set {}: the value is not a TOML value; put text in quotes", assignment);
 
-  const std::vector<std::string> parts = parts_of(key);
+  const std::vector<std::string> parts = key_parts(key);
   toml::table* table = &document_->root;
+  std::string way;
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
-    toml::node* next = table->insert(parts[i], toml::table{}).first->second.as_table();
-    if (!next) throw_input_error("--set {}: {} is not a table in {}", assignment, parts[i], document_->name);
+    toml::node* next = &table->insert(parts[i], toml::table{}).first->second;
+    way += (i > 0 ? "." : "") + parts[i];
+    if (is_list(*next)) {
+      const std::string& place = parts[++i];
+      toml::node* entry = child(*next, place);
+      if (!entry || i + 1 == parts.size())
+        fail_in_list(assignment, way, place, next->as_array()->size(), entry != nullptr);
+      next = entry;
+      way += "." + place;
+    }
     table = next->as_table();
+    if (!table) throw_input_error("--set {}: {} is not a table in {}", assignment, way, document_->name);
   }
   parsed.begin()->second.visit([&](auto& node) { table->insert_or_assign(parts.back(), std::move(node)); });
   document_->overrides[key] = assignment;
@@ -172,16 +197,19 @@ void TomlReader::override_with(const std::string& assignment) {
 
 const toml::node* TomlReader::find(std::string_view key) const {
   document_->asked_for.insert(prefix_ + std::string(key));
-  const toml::table* table = table_;
-  const std::vector<std::string> parts = parts_of(key);
-  for (std::size_t i = 0;; ++i) {
-    const toml::node* node = table->get(parts[i]);
-    if (!node) return nullptr;
+  const toml::node* node = table_;
+  std::string before;
+  for (const std::string& part : key_parts(key)) {
+    const bool list = is_list(*node);
+    if (list && !is_place(part))
+      fail(key, fmt::format("is not found: '{}' is a list of tables; write [{}]", before, before));
+    if (!list && !node->is_table())
+      fail(key, fmt::format("'{}' is {}, not a table", before, type_name(*node)));
+    if (!(node = child(*node, part))) return nullptr;
     document_->read.insert(node);
-    if (i + 1 == parts.size()) return node;
-    table = node->as_table();
-    if (!table) fail(key, fmt::format("'{}' is {}, not a table", parts[i], type_name(*node)));
+    before = part;
   }
+  return node;
 }
 
 bool TomlReader::has(std::string_view key) const { return find(key) != nullptr; }
@@ -193,12 +221,14 @@ void TomlReader::skip(std::string_view key) const {
 
 void TomlReader::require(std::string_view key) const {
   if (has(key)) return;
-  const toml::table* table = table_;  // the innermost one that exists
-  std::vector<std::string> parts = parts_of(key);
-  for (; table->contains(parts.front()); parts.erase(parts.begin()))
-    table = table->get_as<toml::table>(parts.front());
+  const toml::node* inner = table_;  // the innermost one that exists
+  std::vector<std::string> parts = key_parts(key);
+  while (const toml::node* next = child(*inner, parts.front())) {
+    inner = next;
+    parts.erase(parts.begin());
+  }
   std::set<std::string> others;
-  for (const auto& [name, node] : *table)
+  for (const auto& [name, node] : *inner->as_table())
     if (!document_->read.contains(&node)) others.emplace(name.str());
   const std::string misspelt = nearest_name(parts.front(), others);
   fail(key, misspelt.empty()
@@ -210,9 +240,15 @@ void TomlReader::fail(std::string_view key, const std::string& sentence) const {
   const std::string full = prefix_ + std::string(key);
   if (const std::string set = override_of(full); !set.empty())
     throw_input_error("{}: {} {}", set, full, sentence);
-  const toml::node* node = table_->at_path(key).node();
-  const toml::node* located = node ? node : table_;
-  if (const auto line = located->source().begin.line; line > 0 && (node || !prefix_.empty()))
+  const toml::node* located = table_;  // the innermost one that is there
+  bool in_list = !prefix_.empty(), whole = true;
+  for (const std::string& part : key_parts(key)) {
+    in_list = in_list || is_list(*located);
+    const toml::node* next = child(*located, part);
+    if (!(whole = next != nullptr)) break;
+    located = next;
+  }
+  if (const auto line = located->source().begin.line; line > 0 && (whole || in_list))
     throw_input_error("{}:{}: {} {}", document_->name, line, full, sentence);
   throw_input_error("{}: {} {}", document_->name, full, sentence);
 }
@@ -385,6 +421,18 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) const {
   return found;
 }
 
+int TomlReader::count_tables(std::string_view key) const {
+  const std::string full = prefix_ + std::string(key);
+  document_->lists.insert(full);
+  const toml::node* node = find(key);
+  if (!node) return 0;
+  if (node->is_table() && node->as_table()->size() > 0 && is_place(node->as_table()->begin()->first.str()))
+    fail(key, fmt::format("has no table in {}; add one that begins with [[{}]]", document_->name, full));
+  if (node->is_table()) fail(key, fmt::format("is one table; write [[{}]], with two brackets", full));
+  if (!is_list(*node)) fail(key, fmt::format("is {}; write [[{}]] tables", type_name(*node), full));
+  return static_cast<int>(node->as_array()->size());
+}
+
 std::string TomlReader::override_of(const std::string& key) const {
   for (const auto& [set, assignment] : document_->overrides)
     if (set == key || set.starts_with(key + ".") || key.starts_with(set + ".")) return "--set " + assignment;
@@ -397,13 +445,17 @@ void TomlReader::reject_unread(const Conditions& conditions, const LeaveOut& lea
     const std::string location =
         set.empty() ? fmt::format("{}:{}", document_->name, node.source().begin.line) : set;
     const auto known = conditions ? conditions() : std::map<std::string, std::string>{};
-    if (const auto found = known.find(key); found != known.end()) {
-      if (leave_out && leave_out(key, found->second)) return;
+    const std::string first = at_first_places(key);
+    if (const auto found = known.find(first); found != known.end()) {
+      const std::string condition = at_places_of(key, found->second);
+      if (leave_out && leave_out(key, condition)) return;
       throw_input_error("{}: {} applies only where {}; remove it, or change that setting", location, key,
-                        found->second);
+                        condition);
     }
-    for (const auto& [other, condition] : known) document_->asked_for.insert(other);
-    const std::string suggestion = nearest_name(key, document_->asked_for);
+    std::set<std::string> names;
+    for (const std::string& other : document_->asked_for) names.insert(at_first_places(other));
+    for (const auto& [other, condition] : known) names.insert(other);
+    const std::string suggestion = at_places_of(key, nearest_name(first, names));
     throw_input_error("{}: unknown key {}{}", location, key,
                       suggestion.empty()
                           ? "; remove it (sandstroke help scene, script or plan lists the keys)"
@@ -415,8 +467,12 @@ void TomlReader::reject_unread(const Conditions& conditions, const LeaveOut& lea
       if (!document_->read.contains(&node)) reject(full, node);
       if (const toml::table* inner = node.as_table()) self(self, *inner, full + ".");
       if (const toml::array* array = node.as_array()) {
-        for (const toml::node& element : *array)
-          if (const toml::table* inner = element.as_table()) self(self, *inner, full + ".");
+        const bool named_by_place = document_->lists.contains(full);
+        int place = 0;
+        for (const toml::node& element : *array) {
+          const std::string inside = named_by_place ? fmt::format("{}.{}.", full, ++place) : full + ".";
+          if (const toml::table* inner = element.as_table()) self(self, *inner, inside);
+        }
       }
     }
   };

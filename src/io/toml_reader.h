@@ -22,7 +22,8 @@ std::string toml_string(const std::string& text);
 std::string range_text(Range range);
 
 /// One table of a TOML file, read key by key. Errors name file, line, key, value and remedy (Error: input).
-/// Keys that nobody reads are errors, too: call reject_unread() last. Keys may be dotted ("bed.cells").
+/// Keys that nobody reads are errors, too: call reject_unread() last. Keys may be dotted ("bed.cells"), and
+/// name a table of a list by its place, counted from 1 ("stone.1.radius").
 /// Copies share the document.
 class TomlReader {
  public:
@@ -69,6 +70,9 @@ class TomlReader {
   /// The tables of [[key]], in order.
   std::vector<TomlReader> tables(std::string_view key) const;
 
+  /// The number of tables of [[key]]. Keys in them are named by their places ("stone.1.radius").
+  int count_tables(std::string_view key) const;
+
   void require(std::string_view key) const;
   /// Throws for the first key in the whole document that no call above has read. conditions: where keys apply
   /// that are not always read ("bed.surface.kind is noise"), by their names. leave_out: gets such a key and
@@ -85,6 +89,8 @@ class TomlReader {
   TomlReader(std::shared_ptr<Document> document, toml::table* table, std::string prefix);
   const toml::node* find(std::string_view key) const;
   void take_out(const std::string& key);
+  [[noreturn]] void fail_in_list(const std::string& assignment, const std::string& list,
+                                 const std::string& place, std::size_t tables, bool found) const;
   /// The "--set ..." that gave a key, its table or what is in it; empty: none.
   std::string override_of(const std::string& key) const;
   double checked(std::string_view key, const toml::node& node, Range range, std::string_view unit = "") const;

@@ -204,6 +204,10 @@ class Changer : public KeyVisitor {
   void choice(const char* key, int& value, const std::vector<std::string>& names, const char*) override {
     if (mine(key)) value = (value + 1) % static_cast<int>(names.size());
   }
+  int tables(const char*, int count) override { return count; }
+  void table(const char* list, int place, const char*) override {
+    section_ = list + ("." + std::to_string(place));
+  }
   bool given(const char*) override { return true; }
   void require(const char*) override {}
   void profile(const char*, std::vector<double>&, Range, const char*, const char*) override {}
