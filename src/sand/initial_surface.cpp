@@ -127,6 +127,19 @@ double disk_cell_area(double radius, double x, double y, double cell_size) {
   return far.copies * near.copies * quadrant_area(radius, far.begin, far.end, near.begin, near.end);
 }
 
+double disk_rectangle_area(double radius, double x0, double x1, double y0, double y1) {
+  // Each quadrant has its part of the rectangle, mirrored into the first one.
+  double area = 0.0;
+  for (const double right : {1.0, -1.0})
+    for (const double up : {1.0, -1.0}) {
+      const double begin_x = std::max(0.0, std::min(right * x0, right * x1)),
+                   end_x = std::max(right * x0, right * x1),
+                   begin_y = std::max(0.0, std::min(up * y0, up * y1)), end_y = std::max(up * y0, up * y1);
+      if (begin_x < end_x && begin_y < end_y) area += quadrant_area(radius, begin_x, end_x, begin_y, end_y);
+    }
+  return area;
+}
+
 HeightField make_surface(const SurfaceSettings& settings, int rows, int cols, double cell_size,
                          BedShape shape) {
   const BedGeometry bed(rows, cols, cell_size);

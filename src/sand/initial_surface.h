@@ -35,4 +35,7 @@ HeightField make_surface(const SurfaceSettings& settings, int rows, int cols, do
 /// of half a cell.
 double disk_cell_area(double radius, double x, double y, double cell_size);
 
+/// Area [m^2] of that disk inside x0 <= x <= x1, y0 <= y <= y1.
+double disk_rectangle_area(double radius, double x0, double x1, double y0, double y1);
+
 }  // namespace sandstroke

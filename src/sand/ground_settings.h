@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tool/triangle_mesh.h"
+
+namespace sandstroke {
+
+enum class RegionShape { rectangle, circle, polygon };
+
+/// A part of the bed with sand of its own kind. The shape decides which lengths count.
+struct SandRegion {
+  RegionShape shape = RegionShape::rectangle;
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();  ///< m: rectangle, circle
+  Eigen::Vector2d size = {0.5, 0.5};                 ///< m along x and y: rectangle
+  double radius = 0.25;                              ///< m: circle
+  std::vector<Eigen::Vector2d> points = {};          ///< m: corners of the polygon, along its outline
+  double soft = 0.0;                                 ///< m: width of the band around the edge in which the
+                                                     ///< sand's kind changes; 0: a sharp edge
+  double talus_angle = 30.0;                         ///< deg
+};
+
+enum class StoneShape { sphere, ellipsoid, box, mesh };
+
+/// A body that sand lies on and flows around. Only its upper side counts. The shape decides which lengths do.
+struct StoneSettings {
+  StoneShape shape = StoneShape::sphere;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();    ///< m; where the origin of a mesh's file is
+  double radius = 0.05;                                ///< m: sphere
+  Eigen::Vector3d size = {0.1, 0.1, 0.1};              ///< m: full extents of ellipsoid and box
+  std::string file = {};                               ///< of the mesh
+  double scale = 1.0;                                  ///< m per unit of length in that file
+  double turn = 0.0;                                   ///< deg about z, from +x towards +y; not of the sphere
+  double talus_angle = 0.0;                            ///< deg, of sand that lies on it; 0: as around it
+  std::shared_ptr<const TriangleMesh> mesh = nullptr;  ///< that file's, in m (null: not read)
+};
+
+/// What the sand lies on, and its kinds by place.
+struct GroundSettings {
+  std::optional<double> floor;      ///< m, height of a level floor; none: the sand is as deep as may be
+  std::vector<SandRegion> regions;  ///< later ones lie over earlier ones
+  std::vector<StoneSettings> stones;
+  double stiffness = 1000.0;  ///< N/m, of floor and stones under the hand; 0: it does not feel them
+
+  /// Whether there is something below which no sand gets.
+  bool is_solid() const { return floor.has_value() || !stones.empty(); }
+  bool empty() const { return !is_solid() && regions.empty(); }
+};
+
+}  // namespace sandstroke
