@@ -171,6 +171,12 @@ std::optional<SceneFile> felt_scene(const RecordArguments& arguments) {
           "{}: model.{} = \"{}\" is a plugin law, which record --feel does not take, because its run time is "
           "unknown; remove it from the scene",
           arguments.felt_scene, key, name);
+  if (!scene.ground.empty())
+    throw_input_error(
+        "{}: has a bed.floor, a [[stone]] or a [[sand.region]], which record --feel does not know yet; "
+        "remove "
+        "them from the scene",
+        arguments.felt_scene);
   scene.tool = with_mesh(scene.tool, fs::path(arguments.felt_scene).parent_path());
   check_tool_fits(scene, arguments.felt_scene);
   return scene;

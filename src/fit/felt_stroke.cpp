@@ -26,7 +26,7 @@ FeltStroke felt_stroke(const Scene& asked, const std::filesystem::path& scene_fo
         "{}: has no forces, so there is nothing to fit; name the force columns and their unit "
         "(stroke.table.force and force_unit), or give another --stroke",
         samples_name(path));
-  return {scene, load_surface(scene.bed, scene_folder), std::move(stroke)};
+  return {scene, load_bed(scene, scene_folder), std::move(stroke)};
 }
 
 }  // namespace sandstroke

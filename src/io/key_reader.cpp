@@ -44,6 +44,7 @@ class KeyReader : public KeyVisitor {
     values = toml_.profile(prefix_ + key, values, range, unit);
   }
   void points(const char* key, std::vector<Eigen::Vector2d>& values, const char*, const char*) override {
+    if (toml_.has(prefix_ + key)) values.clear();
     for (const std::vector<double>& xy : toml_.points(prefix_ + key)) values.emplace_back(xy[0], xy[1]);
   }
   void integers(const char* key, int* values, int count, int lowest, int highest, const char*) override {

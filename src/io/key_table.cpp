@@ -42,8 +42,12 @@ class KeyLister : public KeyVisitor {
                const char* help) override {
     add(key, "", help, unit, range);
   }
-  void points(const char* key, std::vector<Eigen::Vector2d>&, const char* unit, const char* help) override {
-    add(key, "", help, unit);
+  void points(const char* key, std::vector<Eigen::Vector2d>& values, const char* unit,
+              const char* help) override {
+    std::vector<std::string> literals;
+    for (const Eigen::Vector2d& at : values)
+      literals.push_back(fmt::format("[{}, {}]", literal(at.x()), literal(at.y())));
+    add(key, values.empty() ? "" : fmt::format("[{}]", fmt::join(literals, ", ")), help, unit);
   }
   void integers(const char* key, int* values, int count, int lowest, int highest, const char* help) override {
     const std::string list = fmt::format("{}", fmt::join(values, values + count, ", "));

@@ -8,7 +8,6 @@
 
 #include "core/error.h"
 #include "core/input_file.h"
-#include "tool/check_mesh.h"
 
 namespace sandstroke {
 namespace {
@@ -119,20 +118,32 @@ TriangleMesh text_mesh(const std::string& bytes, const std::string& name) {
 
 }  // namespace
 
-TriangleMesh parse_mesh(const std::string& bytes, double scale, const std::string& name) {
+TriangleMesh parse_mesh(const std::string& bytes, double scale, const std::string& name, const MeshUse& use) {
   TriangleMesh mesh = is_binary(bytes) ? binary_mesh(bytes, name) : text_mesh(bytes, name);
   for (Eigen::Vector3d& vertex : mesh.vertices) vertex *= scale;
-  return checked_mesh(mesh, name);
+  return checked_mesh(mesh, name, use);
 }
 
-TriangleMesh read_mesh(const std::filesystem::path& path, double scale) {
-  return parse_mesh(whole_file(path), scale, path.string());
+TriangleMesh read_mesh(const std::filesystem::path& path, double scale, const MeshUse& use) {
+  return parse_mesh(whole_file(path), scale, path.string(), use);
 }
 
 ToolSettings with_mesh(ToolSettings tool, const std::filesystem::path& folder) {
   if (tool.shape == ToolShape::mesh && !tool.mesh)
     tool.mesh = std::make_shared<TriangleMesh>(read_mesh(folder / tool.file, tool.scale));
   return tool;
+}
+
+GroundSettings with_meshes(GroundSettings ground, const std::filesystem::path& folder) {
+  int place = 0;
+  for (StoneSettings& stone : ground.stones) {
+    const std::string key = fmt::format("stone.{}", ++place);
+    if (stone.shape != StoneShape::mesh || stone.mesh) continue;
+    constexpr double largest_stone = 1000.0;  // m
+    const MeshUse use{"stone", key + ".scale", "is put at " + key + ".centre", largest_stone};
+    stone.mesh = std::make_shared<TriangleMesh>(read_mesh(folder / stone.file, stone.scale, use));
+  }
+  return ground;
 }
 
 }  // namespace sandstroke

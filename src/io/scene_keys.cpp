@@ -11,6 +11,8 @@ std::vector<KeySection> all_scene_keys() {
   return all_keys([](KeyVisitor& visitor) {
     SceneFile scene;
     scene.stroke.emplace().table.emplace();
+    scene.ground.regions.emplace_back();
+    scene.ground.stones.emplace_back();
     describe_scene_file(visitor, scene);
   });
 }

@@ -33,7 +33,11 @@ void check(const Scene& scene, const TomlReader& toml) {
 enum class Written { by_a_user, by_a_run };
 
 const std::map<std::string, std::string>& scene_conditions() {
-  static const std::map<std::string, std::string> known = conditions(all_scene_keys());
+  static const std::map<std::string, std::string> known = [] {
+    std::map<std::string, std::string> all = conditions(all_scene_keys());
+    for (const char* key : {"ground", "ground.stiffness"}) all[key] = "there is a bed.floor or a [[stone]]";
+    return all;
+  }();
   return known;
 }
 
@@ -148,6 +152,8 @@ SceneFile load_scene(const std::filesystem::path& path, const std::vector<std::s
     const std::filesystem::path folder = folder_of(path);
     find_given_file(scene.bed.surface.file, "bed.surface.file", overrides, folder);
     find_given_file(scene.tool.file, "tool.file", overrides, folder);
+    for (std::size_t i = 0; i < scene.ground.stones.size(); ++i)
+      find_given_file(scene.ground.stones[i].file, fmt::format("stone.{}.file", i + 1), overrides, folder);
     find_given_file(scene.plugin_laws.plugin, "model.plugin", overrides, folder);
     if (scene.stroke) {
       find_given_file(scene.stroke->file, "stroke.file", overrides, folder);
@@ -205,6 +211,8 @@ std::vector<std::filesystem::path> input_files(const Scene& scene, const std::fi
     files = sample_files(stroke_path(scene, folder), scene.stroke->table.value_or(TableSettings{}));
   if (scene.bed.surface.kind == SurfaceKind::file) files.push_back(folder / scene.bed.surface.file);
   if (scene.tool.shape == ToolShape::mesh) files.push_back(folder / scene.tool.file);
+  for (const StoneSettings& stone : scene.ground.stones)
+    if (stone.shape == StoneShape::mesh) files.push_back(folder / stone.file);
   if (!scene.plugin_laws.plugin.empty()) files.push_back(folder / scene.plugin_laws.plugin);
   return files;
 }

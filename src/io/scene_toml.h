@@ -56,7 +56,7 @@ SceneFile stored_scene(const std::string& text, const std::string& name);
 std::filesystem::path stroke_path(const Scene& scene, const std::filesystem::path& folder);
 
 /// The files that a scene names, from `folder`, the scene's: stroke, the table that is merged with it,
-/// surface, mesh, plugin.
+/// surface, meshes, plugin.
 std::vector<std::filesystem::path> input_files(const Scene& scene, const std::filesystem::path& folder);
 
 /// True for a key of older scenes and run files with a value that changes nothing.

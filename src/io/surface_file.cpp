@@ -51,6 +51,10 @@ HeightGrid last_heights(const RunFile& run, const BedSettings& bed) {
 
 }  // namespace
 
+HeightField load_bed(const Scene& scene, const std::filesystem::path& folder) {
+  return on_ground(load_surface(scene.bed, folder), scene);
+}
+
 BedSettings with_own_range(BedSettings bed, const std::filesystem::path& folder) {
   SurfaceSettings& surface = bed.surface;
   if (surface.kind != SurfaceKind::file || !has_picture_name(surface.file) || surface.low != surface.high)

@@ -50,7 +50,7 @@ Distance force_distance(const Kept<Eigen::Vector3d>& fine, const Kept<Eigen::Vec
 }
 
 /// The second solution's start. If no rule can make its cells anew, they are averaged, or split.
-HeightField start_of(const Scene& second, const HeightField& start) {
+HeightField heights_of(const Scene& second, const HeightField& start) {
   const SurfaceSettings& surface = second.bed.surface;
   const bool cell_by_cell =
       surface.kind == SurfaceKind::file || (surface.kind == SurfaceKind::noise && surface.wavelength == 0.0);
@@ -58,6 +58,10 @@ HeightField start_of(const Scene& second, const HeightField& start) {
   if (!cell_by_cell) return starting_bed(second.bed);
   const CellMeans means(start, rows, cols);
   return HeightField(HeightGrid::NullaryExpr(rows, cols, means), second.bed.cell_size(), second.bed.shape);
+}
+
+HeightField start_of(const Scene& second, const HeightField& start) {
+  return on_ground(heights_of(second, start), second);
 }
 
 /// The sand that is not where it was: volume, and area of the changed cells.

@@ -37,7 +37,7 @@ class Stepped {
       const WithoutLock let_go;
       const Scene scene = with_files(here.scene, folder_);
       simulation_ = std::make_unique<SteppedSimulation>(
-          scene, start ? *start : load_surface(scene.bed, folder_), relaxes);
+          scene, start ? on_ground(*start, scene) : load_bed(scene, folder_), relaxes);
       start_ = copy_of(*simulation_);
     }
     warnings.give();
@@ -107,7 +107,7 @@ class Stepped {
     BedSettings bed = scene.bed;
     if (bed.surface.kind == SurfaceKind::file)
       bed.surface.kind = SurfaceKind::flat;  // the state has all of it
-    auto simulation = std::make_unique<SteppedSimulation>(scene, starting_bed(bed));
+    auto simulation = std::make_unique<SteppedSimulation>(scene, on_ground(starting_bed(bed), scene));
     simulation->set_state(kept.state);
     const auto start = copy_of(*simulation);
     return std::unique_ptr<Stepped>(new Stepped(folder, file.view, std::move(simulation), start));

@@ -107,6 +107,8 @@ std::string scene_file_entry(const std::filesystem::path& scene_file, const std:
 Scene with_files(Scene scene, const std::filesystem::path& folder) {
   scene.bed = with_own_range(scene.bed, folder);  // so that a run file contains it
   scene.tool = with_mesh(scene.tool, folder);
+  scene.ground = with_meshes(scene.ground, folder);
+  if (scene.ground.has_mesh()) check_scene(scene, "the scene");
   if (scene.tool.mesh && scene.stroke) check_tool_fits(scene, (folder / scene.tool.file).string());
   scene.plugin_laws = with_plugin(scene.plugin_laws, folder);
   return scene;
@@ -178,7 +180,8 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
   if (!options.resume && !output.empty()) check_no_state(output);
   const auto [stroke, stroke_name, stroke_hash] = load_placed(scene, options);
   if (options.second) second_scene(scene, *options.second);  // if this is refused, then before any work
-  HeightField bed = options.surface ? *options.surface : load_surface(scene.bed, options.scene_folder);
+  HeightField bed =
+      options.surface ? on_ground(*options.surface, scene) : load_bed(scene, options.scene_folder);
   std::optional<HeightField> start;
   if (stroke || options.second || keeps) start = bed;
   if (stroke) check_tool_in_stroke(scene, bed, *stroke, stroke_name);

@@ -43,4 +43,8 @@ TalusGround talus_ground(const Ground& ground) {
   return {ground.talus_slopes.grid() * ground.talus_slopes.cell_size(), ground.floor.grid()};
 }
 
+std::string content_hash(const Ground& ground) {
+  return content_hash(ground.floor) + content_hash(ground.talus_slopes);
+}
+
 }  // namespace sandstroke

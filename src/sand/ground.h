@@ -32,4 +32,7 @@ struct Ground {
 /// The same, cell by cell.
 TalusGround talus_ground(const Ground& ground);
 
+/// The hash of both fields.
+std::string content_hash(const Ground& ground);
+
 }  // namespace sandstroke

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,6 +23,8 @@ struct SandRegion {
   double soft = 0.0;                                 ///< m: width of the band around the edge in which the
                                                      ///< sand's kind changes; 0: a sharp edge
   double talus_angle = 30.0;                         ///< deg
+
+  bool operator==(const SandRegion&) const = default;
 };
 
 enum class StoneShape { sphere, ellipsoid, box, mesh };
@@ -37,6 +40,8 @@ struct StoneSettings {
   double turn = 0.0;                                   ///< deg about z, from +x towards +y; not of the sphere
   double talus_angle = 0.0;                            ///< deg, of sand that lies on it; 0: as around it
   std::shared_ptr<const TriangleMesh> mesh = nullptr;  ///< that file's, in m (null: not read)
+
+  bool operator==(const StoneSettings&) const = default;
 };
 
 /// What the sand lies on, and its kinds by place.
@@ -48,6 +53,11 @@ struct GroundSettings {
 
   /// Whether there is something below which no sand gets.
   bool is_solid() const { return floor.has_value() || !stones.empty(); }
+  /// Whether a stone is read from a file.
+  bool has_mesh() const {
+    return std::any_of(stones.begin(), stones.end(),
+                       [](const StoneSettings& stone) { return stone.shape == StoneShape::mesh; });
+  }
   bool empty() const { return !is_solid() && regions.empty(); }
 };
 

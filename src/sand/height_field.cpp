@@ -79,7 +79,14 @@ void HeightField::lie_on(std::shared_ptr<const Ground> ground) {
   ground_ = std::move(ground);
   if (!ground_) return;
   std::array<double, tile_area> floor, heights;
+  const double level = ground_->level();
   for (int tile = 0; tile < tile_count(); ++tile) {
+    if (ground_->floor.slot_of(tile) < 0) {  // most tiles of a huge bed need no look at their cells
+      if (level == -std::numeric_limits<double>::infinity()) continue;
+      const std::optional<double> sand =
+          slot_of(tile) < 0 ? untouched_->level(*this, tile_cells(tile)) : std::nullopt;
+      if (sand && *sand >= level) continue;
+    }
     ground_->floor.read_tile(tile, floor.data());
     read_tile(tile, heights.data());
     const CellRange cells = tile_cells(tile);
@@ -239,6 +246,7 @@ void HeightField::visit_state(StateVisitor& state) {
       throw_input_error("the state is of another bed: it has a tile {}", tile.index);
     slots_.get()[tile.index] = static_cast<std::uint32_t>(slot) + 1;
   }
+  if (ground_) state.same("bed.ground", content_hash(*ground_));
   state.list("bed.disturbed", disturbed_);
   state.list("bed.tool_walls", tool_walls_);
 }
@@ -252,6 +260,7 @@ std::string content_hash(const HeightField& bed) {
     hash.add(&tile, sizeof tile);
     hash.add(bed.tile_heights(slot), HeightField::tile_area * sizeof(double));
   }
+  if (bed.ground()) hash.add(content_hash(*bed.ground()));
   return hash.text();
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/machine.h"
+#include "sim/scene_ground.h"
 #include "sim/tool_fit.h"
 
 namespace sandstroke {
@@ -23,7 +24,7 @@ void describe_map(KeyVisitor& v, SurfaceSettings& s) {
   }
 }
 
-void describe_bed(KeyVisitor& v, BedSettings& bed) {
+void describe_bed(KeyVisitor& v, BedSettings& bed, GroundSettings& ground) {
   v.section("bed", "the sand box, centred on the origin, z up");
   double size[2] = {bed.width, bed.depth};
   v.numbers("size", size, 2, positive, "m", "extent along x and y");
@@ -36,6 +37,7 @@ void describe_bed(KeyVisitor& v, BedSettings& bed) {
   bed.rows = cells[1];
   choose(v, "shape", bed.shape, {"rectangle", "round"},
          "the whole rectangle, or the largest circle in it with a wall around it, as in a sand table");
+  describe_floor(v, ground);
 
   SurfaceSettings& s = bed.surface;
   v.section("bed.surface", "the sand at the start of the run");
@@ -272,8 +274,10 @@ void check_bed(const Scene& scene, const std::string& name) {
         "{}: bed.surface.wavelength = {} m is too small for a bed of {} m by {} m; take a larger one", name,
         s.wavelength, bed.width, bed.depth);
 
-  check_memory(memory_of_bed(scene), fmt::format("{}: bed.cells = [{}, {}]", name, bed.cols, bed.rows),
-               "take fewer cells");
+  check_ground(scene, name);
+  check_memory(memory_of_bed(scene) + memory_of_ground(scene),
+               fmt::format("{}: bed.cells = [{}, {}]", name, bed.cols, bed.rows),
+               scene.ground.empty() ? "take fewer cells" : "take fewer cells, or smaller regions and stones");
   if (s.kind == SurfaceKind::file && s.file.empty())
     throw_input_error("{}: bed.surface.file is missing; name a run file or a map", name);
 }
@@ -327,7 +331,8 @@ void describe_scene(KeyVisitor& v, Scene& scene) {
   if (v.reads()) apply_model_preset(scene);
   describe_plugin_laws(v, scene.plugin_laws);
 
-  describe_bed(v, scene.bed);
+  describe_bed(v, scene.bed, scene.ground);
+  describe_ground(v, scene.ground);
 
   describe_tool(v, scene.tool);
 

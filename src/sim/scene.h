@@ -12,6 +12,7 @@
 #include "haptics/table_settings.h"
 #include "rules/displacement.h"
 #include "rules/force.h"
+#include "sand/ground_settings.h"
 #include "sand/initial_surface.h"
 #include "sand/relaxation.h"
 #include "sand/resistive_force.h"
@@ -36,6 +37,9 @@ struct BedSettings {
 };
 /// The surface that a scene starts from, if no file has to be read for it.
 HeightField starting_bed(const BedSettings& bed);
+struct Scene;
+/// The same bed, on the ground of the scene, whose cells it must have. Meshes of stones must have been read.
+HeightField on_ground(HeightField bed, const Scene& scene);
 
 struct StrokeSettings {
   std::string file;  ///< .toml (scripted), .h5 (recorded), or a table of samples
@@ -63,6 +67,7 @@ struct PluginLawSettings {
 /// All settings of a run. describe_scene() is the one list of their keys.
 struct Scene {
   BedSettings bed;
+  GroundSettings ground;
   ModelPreset preset = ModelPreset::paper;
   PluginLawSettings plugin_laws;
   ToolSettings tool;

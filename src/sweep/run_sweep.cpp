@@ -206,12 +206,14 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
   const std::shared_ptr<const SweepStroke> stroke = inputs_.stroke(scenes.front());
   std::shared_ptr<const HeightField> bed;
   try {
-    bed = inputs_.bed(scenes.front().bed);
     for (SceneFile& scene : scenes) {
       scene.tool = inputs_.tool(scene.tool);
+      scene.ground = inputs_.ground(scene.ground);
       scene.plugin_laws = inputs_.plugin_laws(scene.plugin_laws);
     }
     const Scene& scene = scenes.front();  // tool, bed and stroke are those of all
+    if (scene.ground.has_mesh()) check_scene(scene, "the scene");
+    bed = inputs_.bed(scene);
     if (scene.tool.mesh && stroke) check_tool_fits(scene, scene.tool.file);
     if (stroke) check_tool_in_stroke(scene, *bed, stroke->stroke, scene.stroke->file);
   } catch (const Error& error) {

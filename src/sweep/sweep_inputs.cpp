@@ -13,11 +13,13 @@ namespace {
 
 constexpr std::size_t most_samples_kept = 10'000'000;  // in all strokes: about a gigabyte
 
-/// The text of a scene with this bed and default settings otherwise: a key for the bed.
-std::string text_of(const BedSettings& bed) {
-  SceneFile scene;
-  scene.bed = bed;
-  return scene_text(scene);
+/// The text of a scene with this one's bed and ground, and default settings otherwise: a key for the bed.
+std::string text_of_bed(const Scene& scene) {
+  SceneFile named;
+  named.bed = scene.bed;
+  named.ground = scene.ground;
+  if (!scene.ground.empty()) named.relaxation.talus_angle = scene.relaxation.talus_angle;
+  return scene_text(named);
 }
 
 }  // namespace
@@ -54,11 +56,11 @@ std::shared_ptr<const SweepStroke> SweepInputs::stroke(const Scene& scene) {
   return strokes_[key] = loaded;
 }
 
-std::shared_ptr<const HeightField> SweepInputs::bed(const BedSettings& bed) {
-  const std::string key = text_of(bed);
+std::shared_ptr<const HeightField> SweepInputs::bed(const Scene& scene) {
+  const std::string key = text_of_bed(scene);
   const std::scoped_lock lock(files_);
   if (const auto found = beds_.find(key); found != beds_.end()) return found->second;
-  auto loaded = std::make_shared<const HeightField>(load_surface(bed, scene_folder_));
+  auto loaded = std::make_shared<const HeightField>(load_bed(scene, scene_folder_));
   beds_loaded_ += 1;
   const auto bytes = static_cast<double>(loaded->bytes());
   bed_bytes_ += bytes;
@@ -78,6 +80,16 @@ ToolSettings SweepInputs::tool(const ToolSettings& settings) {
   tool = with_mesh(tool, scene_folder_);
   mesh = tool.mesh;
   return tool;
+}
+
+GroundSettings SweepInputs::ground(GroundSettings settings) {
+  const std::scoped_lock lock(files_);
+  for (StoneSettings& stone : settings.stones)
+    if (stone.shape == StoneShape::mesh) stone.mesh = stones_[{stone.file, stone.scale}];
+  settings = with_meshes(settings, scene_folder_);
+  for (const StoneSettings& stone : settings.stones)
+    if (stone.mesh) stones_[{stone.file, stone.scale}] = stone.mesh;
+  return settings;
 }
 
 PluginLawSettings SweepInputs::plugin_laws(const PluginLawSettings& settings) {

@@ -26,9 +26,12 @@ class SweepInputs {
 
   /// The stroke that a scene plays. nullptr if it plays none.
   std::shared_ptr<const SweepStroke> stroke(const Scene& scene);
-  std::shared_ptr<const HeightField> bed(const BedSettings& bed);
+  /// The bed that a scene starts from, on its ground, whose meshes must have been read (ground()).
+  std::shared_ptr<const HeightField> bed(const Scene& scene);
   /// The same tool, with its mesh if it is a mesh.
   ToolSettings tool(const ToolSettings& settings);
+  /// The same ground, with the meshes of its stones.
+  GroundSettings ground(GroundSettings settings);
   /// The same settings, with the laws of their plugin if they name one.
   PluginLawSettings plugin_laws(const PluginLawSettings& settings);
 
@@ -45,8 +48,9 @@ class SweepInputs {
   std::size_t stroke_samples_ = 0;                                     // number of samples in strokes_
   std::map<std::string, std::shared_ptr<const HeightField>> beds_;     // by their settings
   double bed_bytes_ = 0.0;                                             // size of beds_
-  std::map<std::pair<std::string, double>, std::shared_ptr<const TriangleMesh>> meshes_;  // by file and scale
-  std::map<std::string, std::shared_ptr<const PluginLaws>> plugins_;                      // by file
+  std::map<std::pair<std::string, double>, std::shared_ptr<const TriangleMesh>> meshes_,
+      stones_;                                                        // by file and scale
+  std::map<std::string, std::shared_ptr<const PluginLaws>> plugins_;  // by file
   int strokes_loaded_ = 0, beds_loaded_ = 0;
 };
 

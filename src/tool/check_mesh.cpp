@@ -14,7 +14,6 @@ namespace sandstroke {
 namespace {
 
 constexpr std::size_t most_triangles = 2'000'000;
-constexpr double largest_tool = 1.0;    // m
 constexpr double least_volume = 1e-15;  // m^3
 
 /// Merges corners that lie within a millionth of the extent. Rounding in the file's digits separates them.
@@ -41,7 +40,7 @@ TriangleMesh welded(const TriangleMesh& mesh, double extent) {
 }
 
 /// The extent of the mesh [m].
-double check_extent(const TriangleMesh& mesh, const std::string& name) {
+double check_extent(const TriangleMesh& mesh, const std::string& name, const MeshUse& use) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : mesh.vertices) {
     if (!vertex.allFinite() || vertex.cwiseAbs().maxCoeff() > 1e6)
@@ -51,17 +50,15 @@ double check_extent(const TriangleMesh& mesh, const std::string& name) {
     box.extend(vertex);
   }
   const double extent = box.sizes().maxCoeff();
-  if (extent > largest_tool)
+  if (extent > use.largest)
     throw_input_error(
-        "{}: is {:.4g} m large, too large for a tool; is the mesh in millimetres? Then set tool.scale = "
-        "0.001; "
+        "{}: is {:.4g} m large, too large for a {}; is the mesh in millimetres? Then set {} = 0.001; "
         "otherwise set a smaller scale",
-        name, extent);
+        name, extent, use.what, use.scale_key);
   const double away = box.exteriorDistance(Eigen::Vector3d(Eigen::Vector3d::Zero()));
   if (away > extent)
-    throw_input_error(
-        "{}: lies {:.4g} m away from its origin, which must be the tool's tip; move the mesh to the origin",
-        name, away);
+    throw_input_error("{}: lies {:.4g} m away from its origin, which {}; move the mesh to the origin", name,
+                      away, use.origin);
   return extent;
 }
 
@@ -96,12 +93,12 @@ void check_closed(const TriangleMesh& mesh, const std::string& name) {
 
 }  // namespace
 
-TriangleMesh checked_mesh(const TriangleMesh& mesh, const std::string& name) {
+TriangleMesh checked_mesh(const TriangleMesh& mesh, const std::string& name, const MeshUse& use) {
   if (mesh.triangles.size() > most_triangles)
-    throw_input_error("{}: has {} triangles, but a tool may have at most {}; simplify the mesh", name,
-                      mesh.triangles.size(), most_triangles);
+    throw_input_error("{}: has {} triangles, but a {} may have at most {}; simplify the mesh", name,
+                      mesh.triangles.size(), use.what, most_triangles);
   if (mesh.triangles.empty()) throw_input_error("{}: has no triangles; export the mesh again", name);
-  TriangleMesh checked = welded(mesh, check_extent(mesh, name));
+  TriangleMesh checked = welded(mesh, check_extent(mesh, name, use));
   if (checked.triangles.empty()) throw_input_error("{}: has no triangles; export the mesh again", name);
   checked = with_triangles_once(checked, name);
   check_closed(checked, name);
@@ -109,8 +106,8 @@ TriangleMesh checked_mesh(const TriangleMesh& mesh, const std::string& name) {
   const double volume = checked.triangles.empty() ? 0.0 : enclosed_volume(checked);
   if (!(volume > least_volume))
     throw_input_error(
-        "{}: encloses {:.3g} m^3, which is too little to displace sand; use a solid, or a larger tool.scale",
-        name, volume);
+        "{}: encloses {:.3g} m^3, which is too little to displace sand; use a solid, or a larger {}", name,
+        volume, use.scale_key);
   return checked;
 }
 

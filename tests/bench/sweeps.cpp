@@ -14,7 +14,7 @@ double back_to_back(const SweepPlan& plan) {
   const Stopwatch watch;
   for (std::size_t point = 0; point < plan.design.points(); ++point) {
     const Scene scene = plan.scene_of(point);
-    Simulation simulation(scene, *inputs.bed(scene.bed), inputs.stroke(scene)->stroke);
+    Simulation simulation(scene, *inputs.bed(scene), inputs.stroke(scene)->stroke);
     simulation.run();
   }
   return watch.seconds();

@@ -17,8 +17,8 @@ constexpr int few_cells = 64, few_ticks = 8;
 void run_briefly(Scene scene, const std::optional<Stroke>& stroke) {
   scene.relaxation.max_passes = std::min<std::int64_t>(scene.relaxation.max_passes, 2);
   scene.output.frames = 0.0;
-  const BedSettings& bed = scene.bed;
-  Simulation(scene, starting_bed(bed), stroke).run();
+  if (scene.ground.has_mesh()) return;
+  Simulation(scene, on_ground(starting_bed(scene.bed), scene), stroke).run();
 }
 
 }  // namespace

@@ -61,7 +61,8 @@ TEST(HostileNumbers, AreReadAsWhatTheySayOrRefused) {
   for (const char* surface : {"flat", "cone", "noise", "ripples", "file"}) {
     const std::string base = std::string("[model]\npreset = 'accurate'\n[bed.surface]\nkind = '") + surface +
                              "'\n" + (surface == std::string("file") ? "file = 'a.h5'\n" : "") +
-                             "[device]\nmodel = 'dynamic'\n[stroke]\nfile = 'line.toml'\n";
+                             "[device]\nmodel = 'dynamic'\n[stroke]\nfile = 'line.toml'\n"
+                             "[[stone]]\ncentre = [0.0, 0.0, 0.0]\n[[sand.region]]\ntalus_angle = 30.0\n";
     const std::string written = scene_text(scene_from_text(base, "scene.toml"));
     for (const KeySection& section : all_scene_keys())
       for (const KeyRow& key : section.keys) {

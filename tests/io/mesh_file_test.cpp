@@ -158,5 +158,29 @@ TEST_F(MeshFile, TwoHundredHostileFilesAreReadOrRefused) {
   EXPECT_GT(refused, 100);
 }
 
+TEST_F(MeshFile, StonesAreReadAndNamedInErrors) {
+  GroundSettings ground;
+  ground.stones.resize(3);
+  ground.stones[1].shape = StoneShape::mesh;
+  ground.stones[1].file = "rock.stl";
+  ground.stones[1].scale = 50.0;  // larger than any tool
+  std::ofstream(folder.path() / "rock.stl", std::ios::binary) << binary_stl(box_mesh());
+  const GroundSettings read = with_meshes(ground, folder.path());
+  EXPECT_EQ(read.stones[0].mesh, nullptr);
+  ASSERT_NE(read.stones[1].mesh, nullptr);
+  EXPECT_NEAR(enclosed_volume(*read.stones[1].mesh), 125000.0 * enclosed_volume(box_mesh()), 1e-3);
+
+  ground.stones[1].scale = 1e6;
+  try {
+    with_meshes(ground, folder.path());
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    const std::string said = error.what();
+    EXPECT_NE(said.find("too large for a stone"), std::string::npos) << said;
+    EXPECT_NE(said.find("set stone.2.scale = 0.001"), std::string::npos) << said;
+    EXPECT_EQ(said.find("tool"), std::string::npos) << said;
+  }
+}
+
 }  // namespace
 }  // namespace sandstroke

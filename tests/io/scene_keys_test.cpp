@@ -31,6 +31,16 @@ const std::vector<std::string> stroke = {"stroke.file=x.h5"}, dynamic = {"device
                                archimedes = {"force.law=archimedes"},
                                outward = {"displacement.deposit=outward"};
 
+const std::vector<std::string> region = {"sand.region=[{talus_angle = 33.0}]"},
+                               round = {"sand.region=[{talus_angle = 33.0, shape = 'circle'}]"},
+                               polygon =
+                                   {"sand.region=[{talus_angle = 33.0, shape = 'polygon', points = [[0, 0], "
+                                    "[1, 0], [0, 1]]}]"},
+                               stone = {"stone=[{centre = [0.0, 0.0, 0.0]}]"},
+                               block = {"stone=[{centre = [0.0, 0.0, 0.0], shape = 'box'}]"},
+                               rock = {"stone=[{centre = [0.0, 0.0, 0.0], shape = 'mesh'}]",
+                                       "stone.1.file=x.stl"};
+
 bool is(const Eigen::Vector3d& v, double x, double y, double z) { return v == Eigen::Vector3d(x, y, z); }
 
 std::vector<std::string> shape(const std::string& name) {
@@ -56,6 +66,29 @@ const std::vector<KeyCase> cases = {
     {"bed.cells=[50, 100]",
      [](S s) { return s.bed.cols == 50 && s.bed.rows == 100; },
      {"bed.size=[1.5, 3.0]"}},
+    {"bed.floor=-0.035", [](S s) { return s.ground.floor == -0.035; }},
+    {"sand.region.1.shape=circle", [](S s) { return s.ground.regions[0].shape == RegionShape::circle; },
+     region},
+    {"sand.region.1.centre=[0.11, 0.12]",
+     [](S s) { return s.ground.regions[0].centre == Eigen::Vector2d(0.11, 0.12); }, region},
+    {"sand.region.1.size=[0.13, 0.14]",
+     [](S s) { return s.ground.regions[0].size == Eigen::Vector2d(0.13, 0.14); }, region},
+    {"sand.region.1.radius=0.15", [](S s) { return s.ground.regions[0].radius == 0.15; }, round},
+    {"sand.region.1.points=[[0.1, 0.2], [0.3, 0.2], [0.1, 0.5]]",
+     [](S s) { return s.ground.regions[0].points[2] == Eigen::Vector2d(0.1, 0.5); }, polygon},
+    {"sand.region.1.soft=0.16", [](S s) { return s.ground.regions[0].soft == 0.16; }, region},
+    {"sand.region.1.talus_angle=34.5", [](S s) { return s.ground.regions[0].talus_angle == 34.5; }, region},
+    {"stone.1.shape=ellipsoid", [](S s) { return s.ground.stones[0].shape == StoneShape::ellipsoid; }, stone},
+    {"stone.1.centre=[0.11, 0.12, 0.13]", [](S s) { return is(s.ground.stones[0].centre, 0.11, 0.12, 0.13); },
+     stone},
+    {"stone.1.radius=0.14", [](S s) { return s.ground.stones[0].radius == 0.14; }, stone},
+    {"stone.1.size=[0.15, 0.16, 0.17]", [](S s) { return is(s.ground.stones[0].size, 0.15, 0.16, 0.17); },
+     block},
+    {"stone.1.file=rock.stl", [](S s) { return s.ground.stones[0].file == "rock.stl"; }, rock},
+    {"stone.1.scale=0.001", [](S s) { return s.ground.stones[0].scale == 0.001; }, rock},
+    {"stone.1.turn=18", [](S s) { return s.ground.stones[0].turn == 18.0; }, block},
+    {"stone.1.talus_angle=36", [](S s) { return s.ground.stones[0].talus_angle == 36.0; }, stone},
+    {"ground.stiffness=900", [](S s) { return s.ground.stiffness == 900.0; }, {"bed.floor=-0.1"}},
     {"bed.surface.kind=cliff", [](S s) { return s.bed.surface.kind == SurfaceKind::cliff; }},
     {"bed.surface.radius=0.31", [](S s) { return s.bed.surface.radius == 0.31; }, cylinder},
     {"bed.surface.radius=0.32", [](S s) { return s.bed.surface.radius == 0.32; }, cone},
@@ -251,7 +284,10 @@ TEST(SceneKeys, EachChangesTheHashOfTheScene) {
 }
 
 TEST(SceneKeys, UnitsAreThoseOfTheTable) {
-  const SceneFile scene = scene_from_text("", "scene.toml", {"stroke.file=x.h5", "device.model=dynamic"});
+  const SceneFile scene = scene_from_text("", "scene.toml",
+                                          {"stroke.file=x.h5", "device.model=dynamic",
+                                           "stone=[{centre = [0.0, 0.0, 0.0]}, "
+                                           "{centre = [0.5, 0.0, 0.0]}]"});
   for (const auto& [name, unit] : {std::pair{"bed.size", "m"},
                                    {"tool.radius", "m"},
                                    {"force.k_s", "N"},
@@ -265,12 +301,15 @@ TEST(SceneKeys, UnitsAreThoseOfTheTable) {
                                    {"device.hand_stiffness", "N/m"},
                                    {"device.max_force", "N"},
                                    {"device.dropped_ticks", ""},
+                                   {"stone.2.radius", "m"},
                                    {"stroke.stop", "s"},
                                    {"no.such_key", ""}})
     EXPECT_EQ(setting_unit(scene, name), unit) << name;
 }
 
-bool takes_integers(const KeyRow& key) { return key.value.find_first_of(".e") == std::string::npos; }
+bool takes_integers(const KeyRow& key) {
+  return !key.value.empty() && key.value.find_first_of(".e") == std::string::npos;
+}
 
 /// A setting of a key, all its numbers alike.
 std::string setting_of(const KeyRow& key, double number) {
@@ -278,7 +317,7 @@ std::string setting_of(const KeyRow& key, double number) {
   std::string list = text;
   for (const char c : key.value)
     if (c == ',') list += ", " + text;
-  return key.name + "=" + (key.value.front() == '[' ? "[" + list + "]" : text);
+  return key.name + "=" + (key.value.starts_with('[') ? "[" + list + "]" : text);
 }
 
 TEST(SceneKeys, TakeWhatTheHelpSaysAndNothingBeyond) {

@@ -94,9 +94,18 @@ TEST(SceneToml, EveryKeyOfTheTableIsReadWithItsDefaultJustWhereItSaysThatItAppli
   for (const KeySection& section : all_scene_keys()) {
     for (const KeyRow& row : section.keys) {
       // Files must be given; a key whose presence counts has no default.
-      const std::string value = row.key() == "file" ? "\"x.h5\"" : row.value.empty() ? "1" : row.value;
+      const std::string value = row.key() == "file"                  ? "\"x.h5\""
+                                : row.name == "stone.1.centre"       ? "[0.0, 0.0, 0.0]"
+                                : row.name == "sand.region.1.points" ? "[[0, 0], [1, 0], [0, 1]]"
+                                : row.value.empty()                  ? "1"
+                                                                     : row.value;
       const auto reads = [&](const std::string& with) {
         std::vector<std::string> settings = {row.name + "=" + value};
+        if (row.name.starts_with("stone.")) settings.insert(settings.begin(), "stone=[{centre = [0, 0, 0]}]");
+        if (row.name.starts_with("sand."))
+          settings.insert(settings.begin(), "sand.region=[{talus_angle = 30}]");
+        if (row.name.starts_with("ground.")) settings.push_back("bed.floor=0");
+        if (with == "stone.1.shape=mesh" && row.key() != "file") settings.push_back("stone.1.file=x.stl");
         if (row.name.starts_with("stroke.")) settings.push_back("stroke.file=x.h5");
         if (!with.empty()) settings.push_back(with);
         if (with == "bed.surface.kind=file") settings.push_back("bed.surface.file=x.h5");
@@ -115,7 +124,9 @@ TEST(SceneToml, EveryKeyOfTheTableIsReadWithItsDefaultJustWhereItSaysThatItAppli
       const std::vector<std::string> brought_by = settings_that_bring(row);
       const bool by_default =
           brought_by.empty() || std::ranges::count(brought_by, "tool.shape=sphere") +
-                                        std::ranges::count(brought_by, "force.law=paper") >
+                                        std::ranges::count(brought_by, "force.law=paper") +
+                                        std::ranges::count(brought_by, "stone.1.shape=sphere") +
+                                        std::ranges::count(brought_by, "sand.region.1.shape=rectangle") >
                                     0;
       EXPECT_EQ(reads(""), by_default) << row.name;
       for (const std::string& setting : brought_by) EXPECT_TRUE(reads(setting)) << row.name << " " << setting;
@@ -124,7 +135,7 @@ TEST(SceneToml, EveryKeyOfTheTableIsReadWithItsDefaultJustWhereItSaysThatItAppli
     }
   }
   EXPECT_GT(keys, 50);
-  EXPECT_EQ(conditional, 38);
+  EXPECT_EQ(conditional, 47);
 }
 
 TEST(SceneToml, AKeyThatDoesNotApplyIsToldWhereItWould) {
@@ -223,6 +234,79 @@ TEST(SceneToml, TheEngineThatOldRunFilesNameIsReadAndNotWritten) {
   const std::string text = scene_text(read("[relaxation]\nengine = 'tiles'\nrate = 30.0\n"));
   EXPECT_EQ(text, scene_text(read("[relaxation]\nrate = 30.0\n")));
   EXPECT_EQ(text.find("engine"), std::string::npos);
+}
+
+const std::string two_stones =
+    "[[stone]]\nshape = 'box'\ncentre = [0.1, 0.2, 0.0]\nsize = [0.1, 0.2, 0.3]\nturn = 20.0\n"
+    "[[stone]]\ncentre = [0.3, 0.0, 0.02]\nradius = 0.04\ntalus_angle = 20.0\n";
+const std::string two_regions =
+    "[[sand.region]]\nsoft = 0.02\ntalus_angle = 35.0\n"
+    "[[sand.region]]\nshape = 'polygon'\npoints = [[0.0, 0.0], [0.5, 0.0], [0.0, 0.25]]\n"
+    "talus_angle = 25.0\n";
+
+TEST(SceneToml, StonesAndRegionsReadBackAsTheSame) {
+  const SceneFile scene = read("[bed]\nfloor = -0.1\n" + two_regions + two_stones);
+  ASSERT_EQ(scene.ground.stones.size(), 2u);
+  EXPECT_EQ(scene.ground.stones[0].size.z(), 0.3);
+  EXPECT_EQ(scene.ground.stones[1].radius, 0.04);
+  ASSERT_EQ(scene.ground.regions.size(), 2u);
+  EXPECT_EQ(scene.ground.regions[1].points.size(), 3u);
+  const std::string text = scene_text(scene);
+  EXPECT_NE(text.find("[[stone]]\nshape = \"box\"\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("points = [[0.0, 0.0], [0.5, 0.0], [0.0, 0.25]]\n"), std::string::npos) << text;
+  EXPECT_EQ(scene_text(read(text)), text);
+  EXPECT_EQ(read(text).ground.stones, scene.ground.stones);
+  EXPECT_EQ(read(text).ground.regions, scene.ground.regions);
+}
+
+TEST(SceneToml, ASceneWithoutAGroundDoesNotSpeakOfIt) {
+  for (const char* word : {"floor", "stone", "region", "[ground]"})
+    EXPECT_EQ(scene_text(read("")).find(word), std::string::npos) << word;
+}
+
+TEST(SceneToml, AStoneIsChangedByItsPlace) {
+  EXPECT_EQ(read(two_stones, {"stone.2.radius=0.1"}).ground.stones[1].radius, 0.1);
+  std::vector<LeftOut> left_out;
+  const SceneFile scene = scene_from_text({two_stones, "scene.toml"}, {"stone.1.shape=sphere"}, &left_out);
+  EXPECT_EQ(scene.ground.stones[0].shape, StoneShape::sphere);
+  EXPECT_EQ(
+      left_out_text(left_out),
+      "stone.1.size is left out, because it applies only where stone.1.shape is ellipsoid or box; "
+      "stone.1.turn is left out, because it applies only where stone.1.shape is ellipsoid or box or mesh");
+  EXPECT_TRUE(applies_conditionally("stone.2.radius"));
+  EXPECT_FALSE(applies_conditionally("stone.2.centre"));
+}
+
+TEST(SceneToml, RefusesStonesAndRegionsThatCannotBeMeant) {
+  const auto said = [](const std::string& text, const std::vector<std::string>& settings = {}) {
+    try {
+      read(text, settings);
+    } catch (const Error& failure) {
+      EXPECT_EQ(failure.kind(), ErrorKind::input);
+      return std::string(failure.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(said("[[stone]]\n"), "scene.toml:1: stone.1.centre is missing; add it");
+  EXPECT_EQ(said("[stone]\nradius = 1.0\n"),
+            "scene.toml:1: stone is one table; write [[stone]], with two brackets");
+  EXPECT_EQ(said("stone = 3\n"), "scene.toml:1: stone is an integer; write [[stone]] tables");
+  EXPECT_EQ(said("[[sand]]\nx = 3\n"),
+            "scene.toml:1: sand.region is not found: 'sand' is a list of tables; write [sand]");
+  EXPECT_EQ(said("[sand]\nregoin = 3\n"), "scene.toml:2: unknown key sand.regoin; did you mean sand.region?");
+  EXPECT_EQ(said("[[sand.region]]\n"), "scene.toml:1: sand.region.1.talus_angle is missing; add it");
+  EXPECT_EQ(said(two_stones + "size = [1.0, 1.0, 1.0]\n"),
+            "scene.toml:10: stone.2.size applies only where stone.2.shape is ellipsoid or box; remove it, or "
+            "change that setting");
+  EXPECT_EQ(
+      said("[ground]\nstiffness = 3.0\n"),
+      "scene.toml:1: ground applies only where there is a bed.floor or a [[stone]]; remove it, or change "
+      "that setting");
+  EXPECT_EQ(said(two_stones, {"stone.3.radius=1"}),
+            "--set stone.3.radius=1: scene.toml has 2 [[stone]] tables, counted from 1, and no stone.3");
+  EXPECT_EQ(said(two_stones, {"stone.2.centre=[5, 0, 0]"}),
+            "--set stone.2.centre=[5, 0, 0]: stone.2 lies outside the bed of 2 m by 2 m; move it, or remove "
+            "it");
 }
 
 TEST(SceneToml, RefusesWhatCannotBeMeant) {
