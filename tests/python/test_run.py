@@ -90,6 +90,27 @@ def test_scenes_are_texts_can_be_read_and_sent(small, line):
         pickle.dumps(sandstroke.run(small, line))
 
 
+def test_scenes_may_have_stones(small):
+    import pickle
+    stones = [{"centre": [0.0, 0.0, 0.0], "radius": 0.02},
+              {"shape": "box", "centre": np.array([0.05, 0.0, 0.0]), "size": [0.02, 0.03, 0.01]}]
+    scene = sandstroke.Scene({"bed": {"size": [0.2, 0.12], "cells": [100, 60], "floor": -0.02}, "stone": stones,
+                              "sand": {"region": [{"talus_angle": 40.0}]}}, {"stone.1.radius": 0.03})
+    assert scene["stone.1.radius"] == 0.03 and scene["stone.2.size"] == [0.02, 0.03, 0.01]
+    assert scene["sand.region.1.talus_angle"] == 40.0
+    assert len(scene.to_dict()["stone"]) == 2
+    for key in ("stone.3.radius", "stone.0.radius", "stone.radius"):
+        with pytest.raises(KeyError):
+            scene[key]
+    simulation = sandstroke.Simulation(scene)
+    assert simulation.heights.max() > 0.029  # lifted onto the stone
+    assert np.array_equal(pickle.loads(pickle.dumps(simulation)).heights, simulation.heights)
+    with pytest.raises(sandstroke.InputError, match="stone.2 lies outside the bed"):
+        sandstroke.Scene(scene, {"stone.2.centre": [1.0, 0.0, 0.0]})
+    with pytest.raises(sandstroke.InputError, match="a law of your own knows no"):
+        sandstroke.Simulation(scene, laws={"force": lambda depth, motion, tip, **numbers: (0.0, 0.0, 0.0)})
+
+
 class Table(dict):
     """As much of a DataFrame as counts: columns by name."""
 

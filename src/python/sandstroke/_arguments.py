@@ -29,6 +29,8 @@ def _toml(value: Any) -> str:
         return json.dumps(os.fspath(value), ensure_ascii=False)
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(map(_toml, value)) + "]"
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{key} = {_toml(inner)}" for key, inner in value.items()) + "}"
     shown = repr(value)
     shown = shown if len(shown) <= 80 else shown[:77] + "..."
     raise _core.InputError(
@@ -54,6 +56,7 @@ def _overrides(*settings: Mapping[str, Any] | None) -> list[str]:
 
 class Scene:
     """All settings of a run: a TOML file or text of several lines, or a mapping such as {"bed": {"cells": [300, 200]}}.
+    {"stone": [{"centre": [0, 0, 0]}]} is a scene with a stone.
 
     settings: other values for keys, as {"relaxation.talus_angle": 34}; None takes a key or a section out. A setting that
     makes another choice, as {"tool.shape": "plate"}, leaves out what the scene sets for the old one, and a UserWarning
@@ -94,9 +97,12 @@ class Scene:
     def __getitem__(self, key: str) -> Any:
         value: Any = self.to_dict()
         for part in key.split("."):
-            if not isinstance(value, Mapping) or part not in value:
+            if isinstance(value, list) and part.isdecimal() and 0 < int(part) <= len(value):
+                value = value[int(part) - 1]  # stone.1.radius
+            elif isinstance(value, Mapping) and part in value:
+                value = value[part]
+            else:
                 raise KeyError(key)
-            value = value[part]
         return value
 
     def __reduce__(self) -> Any:
