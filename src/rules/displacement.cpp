@@ -54,26 +54,41 @@ double PlainDisplacement::rho2(int row, int col) const {
   return x_of(col) * x_of(col) + y_of(row) * y_of(row);
 }
 
-double PlainDisplacement::sand_level(const HeightGrid& heights) const {
+template <class Height>
+double PlainDisplacement::mean_under(const Height& height_of) const {
   SumOfColumns sum, weights;
   for_cells([&](int row, int col) {
     const double inside = filter::reach(radius_) - std::sqrt(rho2(row, col));
     const double weight = std::clamp(inside / cell_size_ + 1.0, 0.0, 1.0);
-    sum.add(col - col_begin_, weight * heights(row, col));
+    sum.add(col - col_begin_, weight * height_of(row, col));
     weights.add(col - col_begin_, weight);
   });
   return sum.total() / weights.total();
 }
 
+double PlainDisplacement::sand_level(const HeightGrid& heights) const {
+  return mean_under([&](int row, int col) { return heights(row, col); });
+}
+
+double PlainDisplacement::floor_above(const HeightGrid& floor, double tip_height) const {
+  return mean_under([&](int row, int col) { return std::max(floor(row, col) - tip_height, 0.0); });
+}
+
 double PlainDisplacement::displace(HeightGrid& heights, double tip_height, const Eigen::Vector3d& motion,
-                                   const DisplacementSettings& settings) const {
+                                   const DisplacementSettings& settings, const HeightGrid* floor) const {
+  const auto floor_at = [&](int row, int col) {
+    return floor ? (*floor)(row, col) : -std::numeric_limits<double>::infinity();
+  };
+  const auto underside = [&](int row, int col) {
+    return tip_height + filter::underside(profile_, radius_, rho2(row, col));
+  };
   HeightGrid excess = HeightGrid::Zero(row_end_ - row_begin_, col_end_ - col_begin_), ring = excess,
              weights = excess;  // of the window
   SumOfColumns taken, on_ring, on_part;
   for_cells([&](int row, int col) {
     const int r = row - row_begin_, c = col - col_begin_;
-    const double underside = tip_height + filter::underside(profile_, radius_, rho2(row, col));
-    excess(r, c) = std::max(0.0, heights(row, col) - underside);
+    const double lowest = std::max(underside(row, col), floor_at(row, col));
+    excess(r, c) = std::max(0.0, heights(row, col) - lowest);
     weights(r, c) = ring(r, c) = filter::positive(u(row, col));
     if (settings.deposit == Deposit::ahead) weights(r, c) *= fraction_ahead(row, col, motion);
     taken.add(c, excess(r, c));
@@ -94,7 +109,9 @@ double PlainDisplacement::displace(HeightGrid& heights, double tip_height, const
   if (sum == 0.0) return 0.0;
   for_cells([&](int row, int col) {
     const int r = row - row_begin_, c = col - col_begin_;
-    if (excess(r, c) > 0.0) heights(row, col) -= excess(r, c);
+    // To the floor exactly, where the tool goes there: the difference is rounded.
+    const double bare = floor_at(row, col), left = heights(row, col) - excess(r, c);
+    if (excess(r, c) > 0.0) heights(row, col) = bare >= underside(row, col) ? bare : std::max(left, bare);
     if (weights(r, c) > 0.0) heights(row, col) += V / sum * weights(r, c);
   });
   return V * (cell_size_ * cell_size_);

@@ -32,15 +32,21 @@ class PlainDisplacement {
   /// Mean height [m] of the sand under the tool and its ring, whose weight fades out within a cell; not a
   /// number where there is none. The tip's depth counts from here.
   double sand_level(const HeightGrid& heights) const;
-  /// Displaces with the tip at tip_height [m], reached by `motion` [m]. Returns V [m^3].
+  /// Mean height [m], over the same cells, by which the floor stands above the tip: there is no sand there
+  /// for the tip to be deep in.
+  double floor_above(const HeightGrid& floor, double tip_height) const;
+  /// Displaces with the tip at tip_height [m], reached by `motion` [m]. Returns V [m^3]. floor [m], if there
+  /// is one: no sand is below it, and it stays where it is.
   double displace(HeightGrid& heights, double tip_height, const Eigen::Vector3d& motion,
-                  const DisplacementSettings& settings) const;
+                  const DisplacementSettings& settings, const HeightGrid* floor = nullptr) const;
   /// The tool is above the cell.
   bool covers(int row, int col) const { return filter::is_negative(u(row, col)); }
 
  private:
   template <class Visit>
   void for_cells(const Visit& visit) const;
+  template <class Height>
+  double mean_under(const Height& height_of) const;
   double x_of(int col) const { return (col - col_origin_ - axis_x_) * cell_size_; }
   double y_of(int row) const { return (row - row_origin_ - axis_y_) * cell_size_; }
   double rho2(int row, int col) const;

@@ -62,7 +62,9 @@ class Offsets {
 /// Factors for bounds just above and below a squared distance, wider than its rounding.
 constexpr double above = 1.0 + 1e-14, below = 1.0 - 1e-14;
 
-double LevelOf(const SphereShape& shape, const ToolFootprint& f) {
+/// The mean of height_of(row, column of a vector's first lane) over the cells that a level counts.
+template <class HeightOf>
+HWY_INLINE double mean_under(const SphereShape& shape, const ToolFootprint& f, const HeightOf& height_of) {
   const double reach2 = shape.reach * shape.reach, beyond = shape.reach + f.cell_size();
   const V one = all(1.0), rho1 = all(shape.reach), cell = all(f.cell_size());
   const V near2 = all(reach2 * below), far2 = all(beyond * beyond * above);
@@ -71,11 +73,10 @@ double LevelOf(const SphereShape& shape, const ToolFootprint& f) {
   for (int row = 0; row < f.cells().rows(); ++row) {
     const V y = all(offsets.y(row)), y2 = y * y;
     const ColumnRange sand = f.sand_cols(row);
-    const double* cells = f.heights(row);
     for (int col = 0, end = f.stride(); col < end; col += lanes) {
       const V x = offsets.x(sand, col), rho2 = x * x + y2;
       if (hn::AllFalse(d, rho2 <= far2)) continue;
-      const V height = hn::Load(d, cells + col);
+      const V height = height_of(row, col);
       if (hn::AllTrue(d, rho2 <= near2)) {
         heights.add(col, height);
         weights.add(col, one);
@@ -90,11 +91,27 @@ double LevelOf(const SphereShape& shape, const ToolFootprint& f) {
   return weight > 0.0 ? heights.total() / weight : std::numeric_limits<double>::quiet_NaN();
 }
 
+double LevelOf(const SphereShape& shape, const ToolFootprint& f) {
+  return mean_under(shape, f, [&](int row, int col) { return hn::Load(d, f.heights(row) + col); });
+}
+double FloorAbove(const SphereShape& shape, const ToolFootprint& f, double tip_height) {
+  const V zero = hn::Zero(d), tip = all(tip_height);
+  return mean_under(shape, f,
+                    [&](int row, int col) { return Max(hn::Load(d, f.floors(row) + col) - tip, zero); });
+}
+
 HWY_INLINE void set_flags(unsigned char* flags, int col, Mask mask) {
   flags[col / group] = static_cast<unsigned char>(flags[col / group] | bits(mask) << (col % group));
 }
 
-template <bool ring>
+/// What is left of sand that was cut: the floor itself where that is above the underside, and nowhere less.
+/// A rounded difference may end just below it.
+HWY_INLINE V down_to(V left, V floor, V underside) {
+  return hn::IfThenElse(floor >= underside, floor, Max(left, floor));
+}
+
+/// over_floor: the floor may be above the tool's underside.
+template <bool ring, bool over_floor>
 HWY_INLINE Carved carve(const SphereShape& shape, ToolFootprint& f, double tip_height,
                         const RingFront& front) {
   const V zero = hn::Zero(d), one = all(1.0), half = all(0.5);
@@ -131,10 +148,17 @@ HWY_INLINE Carved carve(const SphereShape& shape, ToolFootprint& f, double tip_h
       }
       hn::Store(underside, d, undersides + col);
       const V height = hn::Load(d, heights + col);
-      const V excess = Max(height - (tip + underside), zero);
+      V lowest = tip + underside, floor = zero;
+      if (over_floor) {
+        floor = hn::Load(d, f.floors(row) + col);
+        lowest = Max(lowest, floor);
+      }
+      const V excess = Max(height - lowest, zero);
       const Mask cut = excess > zero;
       if (!hn::AllFalse(d, cut)) {
-        hn::Store(height - excess, d, heights + col);
+        V left = height - excess;
+        if (over_floor) left = hn::IfThenElse(cut, down_to(left, floor, tip + underside), height);
+        hn::Store(left, d, heights + col);
         hn::Store(excess, d, f.excess(row) + col);
         sum.add(col, excess);
         set_flags(flags, col, cut);
@@ -158,21 +182,31 @@ HWY_INLINE Carved carve(const SphereShape& shape, ToolFootprint& f, double tip_h
   return {sum.total(), front_weight.total(), ring_weight.total()};
 }
 
-Carved CarveForRing(const SphereShape& shape, ToolFootprint& f, double tip_height, const RingFront& front) {
-  return carve<true>(shape, f, tip_height, front);
-}
-double CarveOnly(const SphereShape& shape, ToolFootprint& f, double tip_height) {
-  return carve<false>(shape, f, tip_height, {0.0, Eigen::Vector2d::Zero()}).sum;
+/// Whether a tool whose lowest point is here [m] may reach the floor. The cell of slack is for rounding: both
+/// variants give the same bits there.
+bool reaches_floor(const ToolFootprint& f, double lowest) {
+  return std::isfinite(lowest) && f.highest_floor() > lowest - f.cell_size();
 }
 
-CarvedUnder CarveUnder(const EnvelopeWindow& envelope, ToolFootprint& f, double tip_height) {
+Carved CarveForRing(const SphereShape& shape, ToolFootprint& f, double tip_height, const RingFront& front) {
+  return reaches_floor(f, tip_height) ? carve<true, true>(shape, f, tip_height, front)
+                                      : carve<true, false>(shape, f, tip_height, front);
+}
+double CarveOnly(const SphereShape& shape, ToolFootprint& f, double tip_height) {
+  const RingFront none{0.0, Eigen::Vector2d::Zero()};
+  return reaches_floor(f, tip_height) ? carve<false, true>(shape, f, tip_height, none).sum
+                                      : carve<false, false>(shape, f, tip_height, none).sum;
+}
+
+template <bool over_floor>
+HWY_INLINE CarvedUnder carve_under(const EnvelopeWindow& envelope, ToolFootprint& f, double tip_height) {
   const V zero = hn::Zero(d), half = all(0.5), tip = all(tip_height);
   const V infinite = all(std::numeric_limits<double>::infinity());
   // The cut heights are multiples of 2^-40 cells or less. So their sum is exact in any order, and a second
   // carve finds nothing to cut.
   const V shift = all(std::scalbn(1.5 * 0x1p12, std::ilogb(f.cell_size()))),
           nearly = all(-0x1p-38 * f.cell_size());
-  LaneSum sum;
+  LaneSum sum, rests;
   V highest = all(-std::numeric_limits<double>::infinity());
   for (int row = 0; row < f.cells().rows(); ++row) {
     const ColumnRange sand = f.sand_cols(row);
@@ -191,18 +225,36 @@ CarvedUnder CarveUnder(const EnvelopeWindow& envelope, ToolFootprint& f, double 
       const V underside = hn::IfThenElse(covered, between(envelope.underside, col), infinite);
       hn::Store(underside, d, f.underside(row) + col);
       const V height = hn::Load(d, heights + col);
-      const V overlap = height - (tip + underside), excess = Max(overlap, zero) + shift - shift;
+      V lowest = tip + underside, floor = zero;
+      if (over_floor) {
+        floor = hn::Load(d, f.floors(row) + col);
+        lowest = Max(lowest, floor);
+      }
+      const V overlap = height - lowest, whole = Max(overlap, zero) + shift - shift;
+      V excess = whole;
+      if (over_floor) {  // down to the floor exactly: what that takes beyond a multiple is added up by itself
+        const Mask bares = hn::And(floor >= tip + underside, overlap > zero);
+        rests.add(col, where(bares, overlap - whole));
+        excess = hn::IfThenElse(bares, overlap, whole);
+      }
       const Mask touches = overlap >= nearly, cut = excess > zero;
       if (hn::AllFalse(d, touches)) continue;
       highest = Max(highest, hn::IfThenElse(touches, underside, highest));
       if (hn::AllFalse(d, cut)) continue;
-      hn::Store(height - excess, d, heights + col);
+      V left = height - excess;
+      if (over_floor) left = hn::IfThenElse(cut, down_to(left, floor, tip + underside), height);
+      hn::Store(left, d, heights + col);
       hn::Store(excess, d, f.excess(row) + col);
-      sum.add(col, excess);
+      sum.add(col, whole);
       set_flags(flags, col, cut);
     }
   }
-  return {sum.total(), largest(highest)};
+  return {over_floor ? sum.total() + rests.total() : sum.total(), largest(highest)};
+}
+
+CarvedUnder CarveUnder(const EnvelopeWindow& envelope, ToolFootprint& f, double tip_height) {
+  return reaches_floor(f, tip_height + envelope.lowest) ? carve_under<true>(envelope, f, tip_height)
+                                                        : carve_under<false>(envelope, f, tip_height);
 }
 
 void CoverUpTo(ToolFootprint& f, double height) {
@@ -341,6 +393,7 @@ HWY_AFTER_NAMESPACE();
 namespace sandstroke {
 
 HWY_EXPORT(LevelOf);
+HWY_EXPORT(FloorAbove);
 HWY_EXPORT(CarveOnly);
 HWY_EXPORT(CarveForRing);
 HWY_EXPORT(CarveUnder);
@@ -350,6 +403,9 @@ HWY_EXPORT(DepositWeights);
 
 double level_of(const SphereShape& shape, const ToolFootprint& footprint) {
   return HWY_DYNAMIC_DISPATCH(LevelOf)(shape, footprint);
+}
+double floor_above(const SphereShape& shape, const ToolFootprint& footprint, double tip_height) {
+  return HWY_DYNAMIC_DISPATCH(FloorAbove)(shape, footprint, tip_height);
 }
 double carve(const SphereShape& shape, ToolFootprint& footprint, double tip_height) {
   return HWY_DYNAMIC_DISPATCH(CarveOnly)(shape, footprint, tip_height);

@@ -27,6 +27,7 @@ struct EnvelopeWindow {
   const double* cover[4];
   double weight[4];
   int stride;
+  double lowest;  ///< m above the tip, of all undersides
 };
 /// The ways on which the sand of a window's cells leaves the tool.
 struct WayOutWindow {
@@ -43,10 +44,13 @@ struct WayOutWindow {
 
 /// The sand level [m] of a placed footprint; NaN where no cell counts.
 double level_of(const SphereShape& shape, const ToolFootprint& footprint);
+/// Mean height [m], over the level's cells, by which the floor stands above the tip. The window must have a
+/// floor.
+double floor_above(const SphereShape& shape, const ToolFootprint& footprint, double tip_height);
 
 // First pass (carve): fills underside() and takes(), lowers heights() to the underside of a tool whose tip is
 // at tip_height [m], flags the lowered cells, and keeps their excess(). sum: the sum of heights taken out
-// [m].
+// [m]. Where the floor is above the underside, sand is lowered to the floor.
 
 /// Carves only, and returns `sum`: for a sphere whose sand goes outward, or that only stands there
 /// (tip_height infinite).

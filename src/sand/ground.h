@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "sand/height_field.h"
 
 namespace sandstroke {
@@ -20,6 +22,10 @@ struct Ground {
   double level() const { return floor.untouched().highest(); }
   /// The least talus slope (rise over run).
   double flattest() const;
+  /// Whether there is a floor anywhere.
+  bool has_floor() const {
+    return floor.allocated_tiles() > 0 || level() > -std::numeric_limits<double>::infinity();
+  }
   /// Whether a tile (by index), or one beside it, has a floor of its own.
   bool has_floor_around(int tile) const { return is_allocated_around(floor, tile); }
   /// Whether a tile (by index), or one beside it, has talus slopes of its own.

@@ -70,19 +70,22 @@ Vector2d leaving(const Vector2d& outward, const Vector2d& way) {
   return blend / std::sqrt(blend.squaredNorm());
 }
 
-/// m; NaN where no sand can lie.
-double sand_at(const HeightField& bed, const Vector2d& at) {
+/// m; NaN where no sand can lie. Of a column whose floor stands above the tool's foot [m] only the sand
+/// counts, as if it stood on the foot's height.
+double sand_at(const HeightField& bed, const Vector2d& at, double foot) {
   const double row = bed.row_at(at.y()) + 0.5, col = bed.col_at(at.x()) + 0.5;
   if (!(row >= 0.0 && col >= 0.0 && row < bed.rows() && col < bed.cols())) return unknown;
   const int r = static_cast<int>(row), c = static_cast<int>(col);
-  return bed.has_sand(r, c) ? bed(r, c) : unknown;
+  if (!bed.has_sand(r, c)) return unknown;
+  return bed.ground() ? bed(r, c) - std::max(bed.floor(r, c) - foot, 0.0) : bed(r, c);
 }
 
 /// Mean height [m] of the sand from 3/4 to 5/4 of `reach` [m] beyond the edge. Where the bed ends before, its
 /// last sand counts. There must be sand at the edge.
-double height_at_reach(const HeightField& bed, const Vector2d& edge, const Vector2d& outward, double reach) {
+double height_at_reach(const HeightField& bed, const Vector2d& edge, const Vector2d& outward, double reach,
+                       double foot) {
   constexpr int samples = 4;
-  const auto height = [&](double far) { return sand_at(bed, edge + far * outward); };
+  const auto height = [&](double far) { return sand_at(bed, edge + far * outward, foot); };
   double sum = 0.0;
   int count = 0;
   for (int i = 0; i < samples; ++i) {
@@ -236,7 +239,7 @@ bool SandBefore::look(const HeightField& bed, const ToolFootprint& footprint, co
     since_[side] = 0.0;
     const Vector2d outward = leaving(outward_[side], way.head<2>()),
                    edge = edge_before(cells_out_[side], at.head<2>(), bed.cell_size() * outward, covered);
-    const double at_edge = sand_at(bed, edge);
+    const double at_edge = sand_at(bed, edge, foot);
     if (std::isnan(at_edge)) continue;  // the bed ends here: what was known stays
     if (is_new) height = at_edge;
     places_[side] = edge - tip.head<2>();
@@ -250,7 +253,7 @@ bool SandBefore::look(const HeightField& bed, const ToolFootprint& footprint, co
     const double rounds = is_new ? most_rounds : std::clamp(std::ceil(moved_by), 1.0, most_rounds);
     for (double round = 0.0; round < rounds; ++round) {
       const double reach = wedge * std::max(height - foot, 0.0),
-                   there = height_at_reach(bed, edge, outward, reach);
+                   there = height_at_reach(bed, edge, outward, reach, foot);
       seen = std::min(there, at_edge);
       places_[side] = edge - tip.head<2>();
       if (there < at_edge) places_[side] += reach * outward;

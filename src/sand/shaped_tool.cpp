@@ -64,6 +64,7 @@ double ShapedTool::covered_height(double tip_height, double touched) const {
 EnvelopeWindow ShapedTool::envelope_window() const {
   EnvelopeWindow window;
   window.stride = envelope_->stride();
+  window.lowest = envelope_->lowest();
   const int phases = envelope_->phases();
   for (int corner = 0; corner < 4; ++corner) {
     const int right = corner % 2, up = corner / 2, row = sample_row_ + up, col = sample_col_ + right;
@@ -122,6 +123,14 @@ void ShapedTool::visit_state(StateVisitor& state, const HeightField& bed, const 
   if (placed) place(bed, tip.x(), tip.y());
   touches_ = touches;
   covered_ = covered;
+}
+
+double ShapedTool::floor_above(double height) const {
+  const CellRange& cells = footprint_.cells();
+  double sum = 0.0;
+  for (int row = 0; row < cells.rows(); ++row)
+    for (int col = 0; col < cells.cols(); ++col) sum += std::max(footprint_.floors(row)[col] - height, 0.0);
+  return sum / (static_cast<double>(cells.rows()) * cells.cols());
 }
 
 void ShapedTool::stand(double tip_height) {

@@ -33,6 +33,8 @@ class ShapedTool : public Tool {
   double displace_in_footprint(const HeightField& bed, double tip_height, const Eigen::Vector3d& motion,
                                const DisplacementSettings& settings) override;
   void carve_only(double tip_height) override { carve(tip_height); }
+  /// Over the window, which is the tool's bounding rectangle.
+  double floor_above(double height) const override;
   void cover() override;
   /// Returns the sum of heights taken out [m].
   double carve(double tip_height);

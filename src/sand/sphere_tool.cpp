@@ -57,6 +57,10 @@ double SphereTool::displace_in_footprint(const HeightField& bed, double tip_heig
 
 void SphereTool::carve_only(double tip_height) { carve(shape_, footprint_, tip_height); }
 
+double SphereTool::floor_above(double height) const {
+  return sandstroke::floor_above(shape_, footprint_, height);
+}
+
 void SphereTool::cover() { carve(shape_, footprint_, std::numeric_limits<double>::infinity()); }
 
 double SphereTool::sand_above_rim(const HeightField& bed, double tip_height) {

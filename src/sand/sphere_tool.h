@@ -22,6 +22,7 @@ class SphereTool : public Tool {
   double displace_in_footprint(const HeightField& bed, double tip_height, const Eigen::Vector3d& motion,
                                const DisplacementSettings& settings) override;
   void carve_only(double tip_height) override;
+  double floor_above(double height) const override;
   void cover() override;
 
   SphereShape shape_;

@@ -39,6 +39,13 @@ class Tool {
   /// Height [m] of the sand around the tool, from which depths count. NaN if the footprint lies outside the
   /// bed.
   double sand_level() const { return level_; }
+  /// Depth [m] of the tool's lowest point below that level, with the tip at tip_height [m]; negative above
+  /// it. Where the floor stands above that point there is no sand to be deep in: its mean height above it is
+  /// left out, so that on a bare floor the depth is 0 or less.
+  double depth(double tip_height) const {
+    const double lowest_height = tip_height + lowest(), depth = level_ - lowest_height;
+    return footprint_.highest_floor() > lowest_height ? depth - floor_above(lowest_height) : depth;
+  }
   /// tip [m]: where it was placed last. When the state is put back, it is placed there.
   virtual void visit_state(StateVisitor& state, const HeightField& bed, const Eigen::Vector3d& tip) {
     if (state.restores()) place(bed, tip.x(), tip.y());
@@ -84,6 +91,8 @@ class Tool {
                                        const DisplacementSettings& settings) = 0;
   /// Carves only, as displace() does, and fills underside() and takes().
   virtual void carve_only(double tip_height) = 0;
+  /// Mean height [m] by which the floor stands above `height` [m] under the tool. Some of it does.
+  virtual double floor_above(double height) const = 0;
   /// Fills underside() with the cells that make_walls() makes walls.
   virtual void cover() = 0;
 

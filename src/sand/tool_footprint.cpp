@@ -5,6 +5,8 @@
 #include <initializer_list>
 #include <tuple>
 
+#include "sand/ground.h"
+
 namespace sandstroke {
 namespace {
 
@@ -68,6 +70,7 @@ bool ToolFootprint::open(const HeightField& bed, const Extent& extent) {
   stride_ = (cells_.cols() + cells_per_group - 1) / cells_per_group * cells_per_group;
   make_room();
   read_heights(bed);
+  read_floors(bed);
   return true;
 }
 
@@ -83,19 +86,30 @@ void ToolFootprint::make_room() {
   flags_.resize(room_ / cells_per_group + 1);
 }
 
-void ToolFootprint::read_heights(const HeightField& bed) {
+void ToolFootprint::read(const HeightField& field, double* out) const {
   constexpr int side = BedGeometry::tile_side;
   for_tile_columns(cells_, [&](int tile_col, int first, int end) {
     for (int row = cells_.row_begin; row < cells_.row_end; ++row) {
-      double* out = heights(row - cells_.row_begin) + (first - cells_.col_begin);
-      const int slot = bed.slot_of(bed.tile_index(row / side, tile_col));
+      double* cells = out + at(row - cells_.row_begin) + (first - cells_.col_begin);
+      const int slot = field.slot_of(field.tile_index(row / side, tile_col));
       if (slot < 0) {
-        bed.untouched().fill(bed, {row, row + 1, first, end}, out, stride_);
+        field.untouched().fill(field, {row, row + 1, first, end}, cells, stride_);
       } else {
-        std::copy_n(bed.tile_heights(slot) + (row % side) * side + first % side, end - first, out);
+        std::copy_n(field.tile_heights(slot) + (row % side) * side + first % side, end - first, cells);
       }
     }
   });
+}
+
+void ToolFootprint::read_heights(const HeightField& bed) { read(bed, heights_.data()); }
+
+void ToolFootprint::read_floors(const HeightField& bed) {
+  highest_floor_ = -std::numeric_limits<double>::infinity();
+  if (!bed.ground() || !bed.ground()->has_floor()) return;
+  floors_.resize(room_, highest_floor_);
+  read(bed.ground()->floor, floors_.data());
+  for (int row = 0; row < cells_.rows(); ++row)
+    highest_floor_ = std::max(highest_floor_, *std::max_element(floors(row), floors(row) + cells_.cols()));
 }
 
 void ToolFootprint::write_flagged(HeightField& bed) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "core/aligned_vector.h"
@@ -23,7 +24,10 @@ class ToolFootprint {
   /// bed, or beyond its wall, are left out. False if no cell is left.
   bool open(const HeightField& bed, const Extent& extent);
   /// Empties the window.
-  void close() { cells_ = {}; }
+  void close() {
+    cells_ = {};
+    highest_floor_ = -std::numeric_limits<double>::infinity();
+  }
 
   /// The window, in cells of the bed; empty where the tool is outside it.
   const CellRange& cells() const { return cells_; }
@@ -45,6 +49,10 @@ class ToolFootprint {
   // Data of a row of the window. The functions in footprint_kernels.h fill in what each cell is to the tool.
   double* heights(int row) { return heights_.data() + at(row); }  ///< m, of the sand
   const double* heights(int row) const { return heights_.data() + at(row); }
+  /// The floor under the sand [m]; only where highest_floor() is finite.
+  const double* floors(int row) const { return floors_.data() + at(row); }
+  /// The highest floor in the window [m]; -infinity: the sand is as deep as may be.
+  double highest_floor() const { return highest_floor_; }
   /// The tool's underside above its tip [m]; infinite outside the bowl.
   double* underside(int row) { return underside_.data() + at(row); }
   const double* underside(int row) const { return underside_.data() + at(row); }
@@ -71,6 +79,9 @@ class ToolFootprint {
  private:
   std::size_t at(int row) const { return static_cast<std::size_t>(row) * stride_; }
   void make_room();
+  /// Copies the window's part of a field to `out`, whose rows are `stride` apart.
+  void read(const HeightField& field, double* out) const;
+  void read_floors(const HeightField& bed);
 
   BedGeometry bed_{1, 1, 1.0};
   CellRange cells_;
@@ -78,7 +89,9 @@ class ToolFootprint {
   double axis_x_ = 0.0, axis_y_ = 0.0, first_x_ = 0.0, first_y_ = 0.0;
   std::size_t room_ = 0;
   AlignedVector<double> heights_, underside_, takes_, excess_;
-  Scratch<AlignedVector<double>> ring_weight_, weights_;  // from open() to the displacement there
+  Scratch<AlignedVector<double>> ring_weight_, weights_;             // from open() to the displacement there
+  double highest_floor_ = -std::numeric_limits<double>::infinity();  // m
+  AlignedVector<double> floors_;                                     // as large as others, where there is one
   AlignedVector<unsigned char> flags_;
   std::vector<RowCells> bowl_;  // buffer of make_walls()
 };

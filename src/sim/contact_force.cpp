@@ -143,12 +143,14 @@ class ArchimedesForce : public ElasticForce {
  private:
   void turn_surface(const Eigen::Matrix3d& rotation) override { elements_.turn(rotation); }
   Wrench law(const ToolInSand& touch) override {
-    const SandPlane plane =
+    SandPlane plane =
         fit_sand_plane(touch.bed, touch.tip.x(), touch.tip.y(), sphere_radius_.value_or(touch.tool.reach()));
     if (std::isnan(plane.height)) {
       sunk_ = 0.0;
       return {};
     }
+    // No sand is where the floor stands above the tip (Tool::depth).
+    plane.height -= touch.tool.sand_level() - (touch.tip.z() + touch.tool.lowest()) - touch.depth;
     constexpr double plate = 0.87574;
     const double yield = sand_.yield_way, per_volume = plate * resistance(sand_);
     sunk_ = std::clamp(sunk_ - touch.motion.z() / yield, 0.0, 1.0);

@@ -39,7 +39,7 @@ Interaction SandSide::look(const HeightField& bed, const Eigen::Vector3d& read_t
   tool_->place(bed, read_tip.x(), read_tip.y());
   Interaction interaction;
   interaction.level = tool_->sand_level();
-  const double depth = interaction.level - (read_tip.z() + tool_->lowest());
+  const double depth = tool_->depth(read_tip.z());
   interaction.contact = depth > 0.0;
   if (!std::isnan(depth)) interaction.depth = depth;
   return interaction;
@@ -61,9 +61,11 @@ double SandSide::displace_sand(HeightField& bed, const Eigen::Vector3d& tip, con
 Interaction SandSide::displace_at(HeightField& bed, const Eigen::Vector3d& tip,
                                   const Eigen::Vector3d& motion) {
   Interaction interaction = look(bed, tip);
-  if (interaction.contact || tool_->may_touch_heaps())
+  // Beside a floor that is higher than the tip, the sand's mean level says little.
+  const bool on_floor = tool_->footprint().highest_floor() > tip.z() + tool_->lowest();
+  if (interaction.contact || tool_->may_touch_heaps() || on_floor)
     interaction.displaced_volume = displace_sand(bed, tip, motion);
-  interaction.contact |= tool_->touches();
+  interaction.contact |= tool_->touches() || (on_floor && interaction.displaced_volume > 0.0);
   tip_ = tip;
   contact_ = interaction.contact;
   return interaction;

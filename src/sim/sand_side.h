@@ -16,7 +16,7 @@ namespace sandstroke {
 struct Interaction {
   double level =
       std::numeric_limits<double>::quiet_NaN();  ///< m, of the sand under the tool; NaN: none there
-  double depth = 0.0;                            ///< m, of the tip below the level; negative = above
+  double depth = 0.0;                            ///< m, of the tip below the level (Tool::depth)
   double displaced_volume = 0.0;                 ///< m^3
   bool contact = false;                          ///< depth > 0
 };

@@ -48,7 +48,7 @@ class ToolForce {
       return {};
     }
     const Tool& tool = sand.tool_on(bed);
-    return feel({bed, tool, tip, motion, tool.sand_level() - (tip.z() + tool.lowest())});
+    return feel({bed, tool, tip, motion, tool.depth(tip.z())});
   }
 };
 

@@ -66,6 +66,21 @@ class RandomScene {
     deposit = {deposits[whole(0, 2)], real(1.0, 1.4)};
   }
 
+  /// Lays the bed on a floor: level, rough, or stones with upright sides and none between. Some lie above the
+  /// sand.
+  void lay_on_floor() {
+    const auto ground = std::make_shared<Ground>(bed, 0.5);
+    const int kind = whole(0, 2);
+    for (int row = 0; row < bed.rows(); ++row)
+      for (int col = 0; col < bed.cols(); ++col)
+        if (kind == 1)
+          ground->floor.set(row, col, real(-6.0, 2.0) * dx);
+        else if (kind == 2 && row / 9 % 2 == col / 7 % 2)
+          ground->floor.set(row, col, (row / 9 + col / 7) % 9 * dx - 5.0 * dx);
+    if (kind == 0) *ground = Ground(bed, real(-4.0, 0.0) * dx, 0.5);
+    bed.lie_on(ground);
+  }
+
   struct Push {
     double x, y, depth;
     Eigen::Vector3d motion;
@@ -267,43 +282,56 @@ WallGrid beyond_wall(const HeightField& bed) {
   return walls;
 }
 
-TEST(Tool, EqualsThePlainRuleOn400RandomScenes) {
-  const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
-  int pushed = 0;
-  for (unsigned seed = 1; seed <= (sanitized ? 40 : 400); ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    const InstructionSet set(targets[seed % targets.size()]);
-    RandomScene scene(seed, 1, 140);
-    HeightField expected = scene.bed;
-    const WallGrid walls = beyond_wall(scene.bed);
-    for (int i = 0; i < 6; ++i) {
-      const RandomScene::Push at = scene.draw_push();
-      SphereTool tool(scene.tool);
-      tool.place(scene.bed, at.x, at.y);
-      HeightGrid heights = expected.grid();
-      const PlainDisplacement plain(scene.tool.profile, scene.tool.radius, walls, scene.dx, at.x, at.y);
-      const double level = plain.sand_level(heights);
-      ASSERT_TRUE(tool.sand_level() == level || (std::isnan(level) && std::isnan(tool.sand_level())));
-      if (std::isnan(level)) continue;
+/// Pushes a tool into a bed six times, by the engine and by the plain rule. Counts pushes that moved sand.
+void push_by_both(RandomScene& scene, int& pushed) {
+  const bool has_floor = scene.bed.ground() != nullptr;
+  const HeightGrid floor = has_floor ? scene.bed.ground()->floor.grid() : HeightGrid();
+  HeightField expected = scene.bed;
+  const WallGrid walls = beyond_wall(scene.bed);
+  for (int i = 0; i < 6; ++i) {
+    const RandomScene::Push at = scene.draw_push();
+    SphereTool tool(scene.tool);
+    tool.place(scene.bed, at.x, at.y);
+    HeightGrid heights = expected.grid();
+    const PlainDisplacement plain(scene.tool.profile, scene.tool.radius, walls, scene.dx, at.x, at.y);
+    const double level = plain.sand_level(heights), tip = level - at.depth;
+    ASSERT_TRUE(tool.sand_level() == level || (std::isnan(level) && std::isnan(tool.sand_level())));
+    if (std::isnan(level)) continue;
+    ASSERT_EQ(tool.depth(tip), has_floor ? level - tip - plain.floor_above(floor, tip) : level - tip);
 
-      const double volume = tool.displace(scene.bed, level - at.depth, at.motion, scene.deposit);
-      ASSERT_EQ(volume, plain.displace(heights, level - at.depth, at.motion, scene.deposit));
-      expected.set_changed(heights);
-      ASSERT_TRUE(same_bits(scene.bed.grid(), expected.grid()));
-      ASSERT_TRUE(same_disturbed(scene.bed, expected));
-      pushed += volume > 0.0;
+    const double volume = tool.displace(scene.bed, tip, at.motion, scene.deposit);
+    ASSERT_EQ(volume, plain.displace(heights, tip, at.motion, scene.deposit, has_floor ? &floor : nullptr));
+    ASSERT_TRUE(!has_floor || (heights >= floor).all());
+    expected.set_changed(heights);
+    ASSERT_TRUE(same_bits(scene.bed.grid(), expected.grid()));
+    ASSERT_TRUE(same_disturbed(scene.bed, expected));
+    pushed += volume > 0.0;
 
-      tool.make_walls(scene.bed);
-      for (int row = 0; row < scene.bed.rows(); ++row)
-        for (int col = 0; col < scene.bed.cols(); ++col)
-          ASSERT_EQ(scene.bed.is_wall(row, col), plain.covers(row, col) || walls(row, col))
-              << row << ", " << col;
-      scene.bed.set_tool_walls({});
-      scene.bed.clear_disturbed();
-      expected.clear_disturbed();
-    }
+    tool.make_walls(scene.bed);
+    for (int row = 0; row < scene.bed.rows(); ++row)
+      for (int col = 0; col < scene.bed.cols(); ++col)
+        ASSERT_EQ(scene.bed.is_wall(row, col), plain.covers(row, col) || walls(row, col))
+            << row << ", " << col;
+    scene.bed.set_tool_walls({});
+    scene.bed.clear_disturbed();
+    expected.clear_disturbed();
   }
-  EXPECT_GT(pushed, sanitized ? 100 : 1000);
+}
+
+TEST(Tool, EqualsThePlainRuleOn400RandomScenesWithAndWithoutFloor) {
+  const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
+  for (const bool has_floor : {false, true}) {
+    int pushed = 0;
+    for (unsigned seed = 1; seed <= (sanitized ? 40 : 400); ++seed) {
+      SCOPED_TRACE("seed " + std::to_string(seed) + (has_floor ? ", on a floor" : ""));
+      const InstructionSet set(targets[seed % targets.size()]);
+      RandomScene scene(seed, 1, 140);
+      if (has_floor) scene.lay_on_floor();
+      push_by_both(scene, pushed);
+      if (testing::Test::HasFatalFailure()) return;
+    }
+    EXPECT_GT(pushed, sanitized ? 100 : 1000);
+  }
 }
 
 TEST(Tool, HasTheSameBitsWithEveryInstructionSet) {
