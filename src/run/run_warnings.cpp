@@ -18,6 +18,18 @@ std::string limited_drag_text(const DeviceResult& result, const Scene& scene) {
       result.limited_drag_ticks, result.limited_drag, most, scene.force.k_f * most / result.limited_drag);
 }
 
+/// A kinematic device goes where the hand goes, whatever is there. Up to a tenth of a cell is what a surface
+/// through cells is worth.
+std::string in_floor_text(const DeviceResult& result, const Scene& scene) {
+  if (scene.device.model != DeviceModel::kinematic) return "";
+  if (!(result.most_floor_depth > 0.1 * scene.bed.cell_size())) return "";
+  return fmt::format(
+      "the stroke goes {:.2g} mm into a stone or the floor, from {:.3f} s on; a kinematic device is not "
+      "stopped, "
+      "the hand is told by the force only; raise the stroke, or set device.model = \"dynamic\"",
+      1e3 * result.most_floor_depth, *result.in_floor_from);
+}
+
 }  // namespace
 
 std::vector<Warning> warnings_of_run(const RunResult& result, const Scene& scene) {
@@ -28,21 +40,21 @@ std::vector<Warning> warnings_of_run(const RunResult& result, const Scene& scene
   if (result.furrow)
     if (const std::string shallow = furrow_warning(scene, *result.furrow); !shallow.empty())
       warnings.push_back({furrow_shallow, shallow});
+  if (const std::string in_floor = in_floor_text(result.device, scene); !in_floor.empty())
+    warnings.push_back({stroke_in_floor, in_floor});
   if (scene.device.model == DeviceModel::dynamic && loop_returned_energy(result.device, scene.device))
     warnings.push_back(
         {loop_active,
          fmt::format("the loop was not passive: the sand returned up to {:.3g} J more than it had "
                      "taken; {}",
-                     -result.device.least_absorbed_energy,
-                     loop_remedies(scene, result.device.max_drag_force))});
+                     -result.device.least_absorbed_energy, loop_remedies(scene, result.device))});
   if (result.device.limited_drag_ticks > 0)
     warnings.push_back({drag_limited, limited_drag_text(result.device, scene)});
   if (result.device.swings_from)
     warnings.push_back(
-        {loop_swings,
-         fmt::format("the loop is unstable: from {:.3f} s on the device swings by itself, with "
-                     "energy that the sand returns in each swing; {}",
-                     *result.device.swings_from, loop_remedies(scene, result.device.max_drag_force))});
+        {loop_swings, fmt::format("the loop is unstable: from {:.3f} s on the device swings by itself, with "
+                                  "energy that the sand returns in each swing; {}",
+                                  *result.device.swings_from, loop_remedies(scene, result.device))});
   if (!result.relaxation.converged)
     warnings.push_back(
         {not_at_rest, fmt::format("the sand is not at rest (residual {:.2e}, tolerance {:.2e}); raise "

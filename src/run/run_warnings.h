@@ -9,7 +9,8 @@
 namespace sandstroke {
 
 /// The warnings that a result gives rise to: the tool touched nothing, the furrow is not as deep as the hand
-/// went, the loop returned energy or swings, or the sand is not at rest. Does not log them.
+/// went, it went into the floor, the loop returned energy or swings, or the sand is not at rest. Does not log
+/// them.
 std::vector<Warning> warnings_of_run(const RunResult& result, const Scene& scene);
 
 }  // namespace sandstroke

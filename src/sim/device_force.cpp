@@ -8,6 +8,7 @@
 #include "core/angle.h"
 #include "core/elementary.h"
 #include "haptics/sand_force.h"
+#include "sim/floor_force.h"
 #include "tool/tool_surface.h"
 
 namespace sandstroke {
@@ -119,12 +120,16 @@ class PluginWrench : public ContactWrench {
   std::string theory_warning(const Scene& /*scene*/, double /*fastest*/) const override { return ""; }
 };
 
-}  // namespace
-
-std::unique_ptr<DeviceForce> make_device_force(const Scene& scene) {
+std::unique_ptr<DeviceForce> make_law(const Scene& scene) {
   if (!scene.plugin_laws.force.empty()) return std::make_unique<PluginWrench>();
   if (is_contact_law(scene)) return std::make_unique<ContactWrench>();
   return std::make_unique<DepthForce>(scene.force);
+}
+
+}  // namespace
+
+std::unique_ptr<DeviceForce> make_device_force(const Scene& scene) {
+  return with_floor(make_law(scene), scene.ground.stiffness);
 }
 
 }  // namespace sandstroke

@@ -15,7 +15,7 @@ namespace sandstroke {
 inline SimulatedDevice::State state_of(const Hand& hand) { return {hand.position, hand.velocity}; }
 
 /// A scene's law of force as the device feels it: the paper's law by depth and velocity, every other law by
-/// what the sand does to the tool (TickRecord::wrench).
+/// what the sand does to the tool (TickRecord::wrench); with what the bed's floor does (sim/floor_force.h).
 class DeviceForce {
  public:
   virtual ~DeviceForce() = default;

@@ -11,6 +11,22 @@
 
 namespace sandstroke {
 
+namespace {
+
+/// What sand and floor returned in a tick along each axis [J]. A tool that glides over a stone is lifted by
+/// as much work as it is slowed down with: the floor's force counts with its work as a whole, divided among
+/// the axes by its direction.
+Eigen::Vector3d returned_along_axes(const TickRecord& record, const Eigen::Vector3d& motion) {
+  const double floor = length_of(record.floor_force);
+  if (!(floor > 0.0)) return record.device_force.cwiseProduct(motion);
+  const Eigen::Vector3d normal = record.floor_force / floor,
+                        by_floor = normal.dot(record.device_force) * normal;
+  return (record.device_force - by_floor).cwiseProduct(motion) +
+         by_floor.dot(motion) * normal.cwiseProduct(normal);
+}
+
+}  // namespace
+
 DeviceSide::DeviceSide(const Scene& scene)
     : force_(make_device_force(scene)), device_(scene.device, state_of(Hand{})), late_force_(scene.device) {
   result_.least_passivity_margin = std::numeric_limits<double>::infinity();
@@ -37,7 +53,8 @@ double DeviceSide::faded_in(const TickRecord& record) {
 
 void DeviceSide::check_numbers(const TickRecord& record) const {
   const bool force = record.device_force.allFinite() && record.repulse_force.allFinite() &&
-                     record.drag_force.allFinite() && record.wrench.torque.allFinite();
+                     record.drag_force.allFinite() && record.floor_force.allFinite() &&
+                     record.wrench.torque.allFinite();
   if (force && std::isfinite(record.passivity_margin)) return;
   throw Error(ErrorKind::unstable,
               fmt::format("at {:.4f} s, {:.4g} m deep, the {} is too large for a number; lower {} or the "
@@ -71,10 +88,13 @@ void DeviceSide::move(const TickRecord& record) {
 
 void DeviceSide::watch(const TickRecord& record, const Eigen::Vector3d& motion) {
   const DeviceSettings& d = device_.settings();
-  Eigen::Vector3d returned = record.device_force.cwiseProduct(motion);
+  Eigen::Vector3d returned = returned_along_axes(record, motion);
   if (record.contact) {
     most_stored_ = std::max(most_stored_, force_->stored(record, d));
-    returned.z() -= 0.5 * d.resolution * force_->felt_sand(record, d).stiffness * std::abs(motion.z());
+    const Eigen::Vector3d rounded =
+        0.5 * d.resolution * force_->felt_sand(record, d).stiffness * motion.cwiseAbs();
+    returned.z() -= rounded.z();
+    if (record.floor_depth > 0.0) returned.head<2>() -= rounded.head<2>();
   }
   const Eigen::Vector3d hand = d.servo_rate * (record.next.position - record.hand.position);
   const bool swings = swing_.add(device_.state().velocity - hand, hand, returned, most_stored_, d.mass);
@@ -93,6 +113,10 @@ void DeviceSide::advance(const TickRecord& record) {
   const double force = length_of(record.device_force);
   result_.max_force = std::max(result_.max_force, force);
   result_.saturated_ticks += record.saturated;
+  if (record.floor_depth > 0.0) {
+    result_.most_floor_depth = std::max(result_.most_floor_depth, record.floor_depth);
+    if (!result_.in_floor_from) result_.in_floor_from = record.time;
+  }
   if (!record.contact) return;
   contact_ticks_ += 1;
   contact_force_.add(force);
@@ -124,9 +148,10 @@ void DeviceSide::visit_state(StateVisitor& state) {
   state.value("device.result", result_);
 }
 
-std::string loop_remedies(const Scene& scene, double max_drag_force) {
+std::string loop_remedies(const Scene& scene, const DeviceResult& result) {
   const DeviceSettings& device = scene.device;
-  auto [lower, raise] = make_device_force(scene)->remedy(max_drag_force);
+  auto [lower, raise] = make_device_force(scene)->remedy(result.max_drag_force);
+  if (result.most_floor_depth > 0.0) lower.emplace_back("ground.stiffness");
   if (device.delay > 0) lower.emplace_back("device.delay");
   if (device.dropped_ticks > 0.0) lower.emplace_back("device.dropped_ticks");
   if (!raise.empty()) raise += " or ";

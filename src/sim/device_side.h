@@ -64,7 +64,7 @@ class DeviceSide {
 /// The remedies for a loop that is unstable or returns energy: the keys of a scene that have a part in it.
 /// "lower force.k_s or device.delay, or raise ..."; with rft and archimedes "lower
 /// force.density ..., or raise force.yield ..."; with a plugin law "lower the force that model.force gives
-/// ...". max_drag_force [N]: 0 where drag did nothing.
-std::string loop_remedies(const Scene& scene, double max_drag_force);
+/// ..."; after a run on the floor ground.stiffness, too.
+std::string loop_remedies(const Scene& scene, const DeviceResult& result);
 
 }  // namespace sandstroke

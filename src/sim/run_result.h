@@ -26,12 +26,15 @@ struct TickRecord {
   Eigen::Vector3d drag_force = Eigen::Vector3d::Zero();       ///< N
   /// N, the force on the hand that was recorded with the stroke (haptics/recorded_force.h); NaN: not known.
   Eigen::Vector3d recorded_force = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  Wrench wrench = {};  ///< by any law but the paper's: force and torque on the bed's axes
+  /// N, of the bed's floor and its stones (sim/floor_force.h).
+  Eigen::Vector3d floor_force = Eigen::Vector3d::Zero();
+  double floor_depth = 0.0;  ///< m, of the tool in the floor: the least way that frees it
+  Wrench wrench = {};        ///< by any law but the paper's: force and torque on the bed's axes
   double level = std::numeric_limits<double>::quiet_NaN();  ///< m, sand level under the tool; NaN: lifted
   double depth = 0.0;             ///< m, of the tip below the level; negative = above
   double displaced_volume = 0.0;  ///< m^3, displaced in this tick
   double passivity_margin = 0.0;  ///< N s/m, Colgate & Schenkel
-  bool contact = false;           ///< the tool touches sand (depth > 0)
+  bool contact = false;           ///< the tool touches sand (depth > 0) or the floor
   bool saturated = false;         ///< the device's maximum force cut the force
   bool dropped = false;           ///< the loop was late: the force of the tick before is given out again
   bool lifts = false;             ///< the hand is lifted before the tick ends
@@ -48,6 +51,8 @@ struct TickRecord {
     state.value("repulse_force", repulse_force);
     state.value("drag_force", drag_force);
     state.value("recorded_force", recorded_force);
+    state.value("floor_force", floor_force);
+    state.value("floor_depth", floor_depth);
     state.value("wrench", wrench);
     state.value("level", level);
     state.value("depth", depth);
@@ -68,6 +73,7 @@ struct TraceContent {
   bool asked_depth = false;     ///< the stroke follows the sand
   bool torque = false;          ///< the law of force is not the paper's
   bool orientation = false;     ///< the stroke turns the tool
+  bool floor = false;           ///< the bed has a floor
 };
 
 /// A field of a record, described for readers of a file.
@@ -121,6 +127,14 @@ void visit_tick_fields(const Visit& visit) {
       Text{"drag_force", "N", "drag force of the sand on the tool there, without delay or limit"},
       [](auto& tick) -> auto& { return tick.drag_force; });
   visit(
+      Text{"floor_force", "N", "force of the floor and its stones on the tool there, without delay or limit",
+           &TraceContent::floor},
+      [](auto& tick) -> auto& { return tick.floor_force; });
+  visit(
+      Text{"floor_depth", "m", "depth of the tool in the floor: the least way that frees it; 0 beside it",
+           &TraceContent::floor},
+      [](auto& tick) -> auto& { return tick.floor_depth; });
+  visit(
       Text{"torque", "N m", "torque of the sand on the tool about its tip", &TraceContent::torque},
       [](auto& tick) -> auto& { return tick.wrench.torque; });
   visit(
@@ -148,7 +162,8 @@ void visit_tick_fields(const Visit& visit) {
       Text{"passivity_margin", "N s/m", "passivity margin (Colgate and Schenkel); negative: may be active"},
       [](auto& tick) -> auto& { return tick.passivity_margin; });
   visit(
-      Text{"contact", "", "whether the tool touches sand"}, [](auto& tick) -> auto& { return tick.contact; });
+      Text{"contact", "", "whether the tool touches sand or the floor"},
+      [](auto& tick) -> auto& { return tick.contact; });
   visit(
       Text{"saturated", "", "whether the force was limited to the device's largest"},
       [](auto& tick) -> auto& { return tick.saturated; });
@@ -256,7 +271,9 @@ struct DeviceResult {
   std::int64_t limited_drag_ticks = 0;
   double limited_drag = 0.0;
   std::optional<double> swings_from =
-      {};  ///< s, from when a dynamic device was found to swing by itself (SwingWatch)
+      {};                         ///< s, from when a dynamic device was found to swing by itself (SwingWatch)
+  double most_floor_depth = 0.0;  ///< m, of the tool in the floor
+  std::optional<double> in_floor_from = {};  ///< s, when the tool was first in the floor
 
   template <class State>
   void visit_state(State& state) {
@@ -270,6 +287,8 @@ struct DeviceResult {
     state.value("limited_drag_ticks", limited_drag_ticks);
     state.value("limited_drag", limited_drag);
     state.value("swings_from", swings_from);
+    state.value("most_floor_depth", most_floor_depth);
+    state.value("in_floor_from", in_floor_from);
   }
 };
 

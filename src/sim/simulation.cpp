@@ -73,7 +73,8 @@ TraceContent Simulation::trace_content() const {
           .dropped_ticks = scene().device.dropped_ticks > 0.0,
           .asked_depth = follower_.has_value(),
           .torque = loop_.has_torque(),
-          .orientation = stroke_ && !stroke_->stroke().orientation.empty()};
+          .orientation = stroke_ && !stroke_->stroke().orientation.empty(),
+          .floor = loop_.has_floor()};
 }
 
 std::int64_t Simulation::told_ticks() const {

@@ -1,6 +1,8 @@
 #include "sim/tick_loop.h"
 
 #include "core/error.h"
+#include "sand/ground.h"
+#include "sim/floor_force.h"
 #include "sim/plugin_laws.h"
 #include "tool/tool_surface.h"
 
@@ -15,6 +17,10 @@ TickLoop::TickLoop(const Scene& scene, HeightField bed, bool plays, std::unique_
       tool_force_(plays ? make_tool_force(scene, bed_.cell_size()) : std::make_unique<NoToolForce>()),
       device_(scene),
       relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene, bed_.cell_size())) {
+  if (plays && bed_.ground() && bed_.ground()->has_floor()) {
+    check_floor_stiffness(scene);
+    floor_.emplace(scene.tool, bed_.cell_size());
+  }
   if (!scene.plugin_laws.relaxation.empty() || !scene.plugin_laws.displacement.empty()) watch_.emplace(bed_);
 }
 
@@ -44,6 +50,7 @@ void TickLoop::turn_tool(const Hand& hand) {
   const Eigen::Matrix3d rotation = rotation_of(hand.orientation) * own_rotation_;
   sand_.turn(rotation);
   tool_force_->turn(rotation);
+  if (floor_) floor_->turn(rotation);
 }
 
 /// Depth, both passes of the displacement along the tool's path, relaxations by its way, and what the sand
@@ -59,6 +66,11 @@ void TickLoop::displace(TickRecord& record, const TickInput& tick) {
   record.depth = interaction.depth;
   record.displaced_volume = interaction.displaced_volume;
   record.contact = interaction.contact;
+  if (!floor_) return;
+  const Eigen::Vector3d way_out = floor_->way_out(bed_, tip);
+  record.floor_depth = length_of(way_out);
+  record.floor_force = scene().ground.stiffness * way_out;
+  record.contact |= record.floor_depth > 0.0;
 }
 
 void TickLoop::advance(const TickRecord& record) {
@@ -86,6 +98,7 @@ void TickLoop::visit_state(StateVisitor& state) {
   bed_.visit_state(state);
   sand_.visit_state(state, bed_);
   tool_force_->visit_state(state);
+  if (floor_) floor_->visit_state(state);
   device_.visit_state(state);
   relaxer_->visit_state(state);
   bool shows_rest = at_rest_.has_value();
@@ -115,7 +128,7 @@ void TickLoop::check_near(const TickRecord& record) const {
   if (!(distance < far))
     throw Error(ErrorKind::unstable,
                 fmt::format("at {:.4f} s the device has diverged ({:.3g} m from the bed's centre); {}",
-                            record.time, distance, loop_remedies(scene(), device_.result().max_drag_force)));
+                            record.time, distance, loop_remedies(scene(), device_.result())));
 }
 
 void TickLoop::check_plugin_law(const char* key, const std::string& name) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "haptics/stroke_sampler.h"
+#include "sand/floor_contact.h"
 #include "sim/device_side.h"
 #include "sim/sand_at_rest.h"
 #include "sim/sand_side.h"
@@ -35,6 +36,8 @@ class TickLoop {
   const HeightField& bed() const { return bed_; }
   /// The trace has torques.
   bool has_torque() const { return tool_force_->gives_wrench(); }
+  /// The tool may come to a floor.
+  bool has_floor() const { return floor_.has_value(); }
   DeviceResult device_result() const { return device_.result(); }
 
   /// The device is where the hand is, and moves as it does.
@@ -70,6 +73,7 @@ class TickLoop {
   Eigen::Matrix3d own_rotation_;  // of the tool
   SandSide sand_;
   Copied<ToolForce> tool_force_;
+  std::optional<FloorContact> floor_;  // where the bed has a floor
   DeviceSide device_;
   Copied<Relaxer> relaxer_;
   std::optional<SandAtRest> at_rest_;
