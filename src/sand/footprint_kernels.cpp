@@ -62,9 +62,10 @@ class Offsets {
 /// Factors for bounds just above and below a squared distance, wider than its rounding.
 constexpr double above = 1.0 + 1e-14, below = 1.0 - 1e-14;
 
-/// The mean of height_of(row, column of a vector's first lane) over the cells that a level counts.
-template <class HeightOf>
-HWY_INLINE double mean_under(const SphereShape& shape, const ToolFootprint& f, const HeightOf& height_of) {
+/// The mean of height_of(what row_of(row) has) over the cells that a level counts.
+template <class RowOf, class HeightOf>
+HWY_INLINE double mean_under(const SphereShape& shape, const ToolFootprint& f, const RowOf& row_of,
+                             const HeightOf& height_of) {
   const double reach2 = shape.reach * shape.reach, beyond = shape.reach + f.cell_size();
   const V one = all(1.0), rho1 = all(shape.reach), cell = all(f.cell_size());
   const V near2 = all(reach2 * below), far2 = all(beyond * beyond * above);
@@ -73,10 +74,11 @@ HWY_INLINE double mean_under(const SphereShape& shape, const ToolFootprint& f, c
   for (int row = 0; row < f.cells().rows(); ++row) {
     const V y = all(offsets.y(row)), y2 = y * y;
     const ColumnRange sand = f.sand_cols(row);
+    const double* cells = row_of(row);
     for (int col = 0, end = f.stride(); col < end; col += lanes) {
       const V x = offsets.x(sand, col), rho2 = x * x + y2;
       if (hn::AllFalse(d, rho2 <= far2)) continue;
-      const V height = height_of(row, col);
+      const V height = height_of(hn::Load(d, cells + col));
       if (hn::AllTrue(d, rho2 <= near2)) {
         heights.add(col, height);
         weights.add(col, one);
@@ -92,12 +94,13 @@ HWY_INLINE double mean_under(const SphereShape& shape, const ToolFootprint& f, c
 }
 
 double LevelOf(const SphereShape& shape, const ToolFootprint& f) {
-  return mean_under(shape, f, [&](int row, int col) { return hn::Load(d, f.heights(row) + col); });
+  return mean_under(
+      shape, f, [&](int row) { return f.heights(row); }, [](V height) { return height; });
 }
 double FloorAbove(const SphereShape& shape, const ToolFootprint& f, double tip_height) {
   const V zero = hn::Zero(d), tip = all(tip_height);
-  return mean_under(shape, f,
-                    [&](int row, int col) { return Max(hn::Load(d, f.floors(row) + col) - tip, zero); });
+  return mean_under(
+      shape, f, [&](int row) { return f.floors(row); }, [&](V floor) { return Max(floor - tip, zero); });
 }
 
 HWY_INLINE void set_flags(unsigned char* flags, int col, Mask mask) {
