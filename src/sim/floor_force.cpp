@@ -58,18 +58,18 @@ std::unique_ptr<DeviceForce> with_floor(std::unique_ptr<DeviceForce> law, double
   return std::make_unique<OnFloor>(std::move(law), stiffness);
 }
 
-void check_floor_stiffness(const Scene& scene) {
+void check_floor_stiffness(const Scene& scene, const std::string& name) {
   const DeviceSettings& device = scene.device;
-  if (device.model != DeviceModel::dynamic ||
+  if (device.model != DeviceModel::dynamic || !scene.ground.is_solid() ||
       passivity_margin(device.scale * scene.ground.stiffness, 0.0, device) > 0.0)
     return;
   const double bound =
       passivity_margin(0.0, 0.0, device) * device.servo_rate / (0.5 + device.delay) / device.scale;
   throw_input_error(
-      "ground.stiffness = {} N/m: the device's loop would create energy at a stone; take less than {:.4g} "
-      "N/m, or "
-      "raise device.servo_rate or device.damping{}",
-      scene.ground.stiffness, bound, device.delay > 0 ? ", or lower device.delay" : "");
+      "{}: ground.stiffness = {} N/m: the device's loop would create energy at a stone; take less than "
+      "{:.4g} "
+      "N/m, or raise device.servo_rate or device.damping{}",
+      name, scene.ground.stiffness, bound, device.delay > 0 ? ", or lower device.delay" : "");
 }
 
 }  // namespace sandstroke

@@ -15,7 +15,7 @@ namespace sandstroke {
 std::unique_ptr<DeviceForce> with_floor(std::unique_ptr<DeviceForce> law, double stiffness);
 
 /// Error: input, where the loop of a dynamic device would create energy at the floor by itself: where the
-/// passivity margin of ground.stiffness is not positive.
-void check_floor_stiffness(const Scene& scene);
+/// passivity margin of ground.stiffness is not positive. name: the scene's file.
+void check_floor_stiffness(const Scene& scene, const std::string& name);
 
 }  // namespace sandstroke

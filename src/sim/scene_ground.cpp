@@ -10,6 +10,7 @@
 #include "sand/make_ground.h"
 #include "sand/sand_region.h"
 #include "sand/stone_surface.h"
+#include "sim/floor_force.h"
 
 namespace sandstroke {
 namespace {
@@ -195,6 +196,7 @@ void check_ground(const Scene& scene, const std::string& name) {
   check_different(ground.regions, "sand.region", name);
   check_different(ground.stones, "stone", name);
   check_laws(scene, name);
+  check_floor_stiffness(scene, name);
 }
 
 double memory_of_ground(const Scene& scene) {

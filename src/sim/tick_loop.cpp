@@ -2,7 +2,6 @@
 
 #include "core/error.h"
 #include "sand/ground.h"
-#include "sim/floor_force.h"
 #include "sim/plugin_laws.h"
 #include "tool/tool_surface.h"
 
@@ -17,10 +16,7 @@ TickLoop::TickLoop(const Scene& scene, HeightField bed, bool plays, std::unique_
       tool_force_(plays ? make_tool_force(scene, bed_.cell_size()) : std::make_unique<NoToolForce>()),
       device_(scene),
       relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene, bed_.cell_size())) {
-  if (plays && bed_.ground() && bed_.ground()->has_floor()) {
-    check_floor_stiffness(scene);
-    floor_.emplace(scene.tool, bed_.cell_size());
-  }
+  if (plays && bed_.ground() && bed_.ground()->has_floor()) floor_.emplace(scene.tool, bed_.cell_size());
   if (!scene.plugin_laws.relaxation.empty() || !scene.plugin_laws.displacement.empty()) watch_.emplace(bed_);
 }
 
