@@ -1,6 +1,7 @@
 #include "io/bed_writer.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <optional>
 #include <vector>
@@ -26,6 +27,12 @@ double commonest_level(const HeightField& bed) {
   const auto most = std::max_element(cells_at.begin(), cells_at.end(),
                                      [](const auto& a, const auto& b) { return a.second < b.second; });
   return most == cells_at.end() ? 0.0 : most->first;
+}
+
+/// A height as it is in a file.
+double stored(double height) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  return height == -infinite ? std::numeric_limits<double>::quiet_NaN() : height;
 }
 
 /// Marks, row by row, the chunks that hold anything but the fill value. It does not look at untouched cells.
@@ -56,7 +63,7 @@ std::vector<bool> chunks_to_write(const HeightField& bed, int chunk_rows, int ch
 void write_bed(Hdf5Writer& file, const std::string& dataset, const HeightField& bed) {
   const double fill = commonest_level(bed);
   Hdf5Chunks chunks =
-      file.chunks(dataset, {bed.rows(), bed.cols()}, {chunk_tiles * side, chunk_tiles * side}, fill);
+      file.chunks(dataset, {bed.rows(), bed.cols()}, {chunk_tiles * side, chunk_tiles * side}, stored(fill));
   const int chunk_rows = (bed.tile_rows() + chunk_tiles - 1) / chunk_tiles,
             chunk_cols = (bed.tile_cols() + chunk_tiles - 1) / chunk_tiles;
   const std::vector<bool> wanted = chunks_to_write(bed, chunk_rows, chunk_cols, fill);
@@ -70,6 +77,7 @@ void write_bed(Hdf5Writer& file, const std::string& dataset, const HeightField& 
         bed.read_tile(bed.tile_index(row, col),
                       chunk.data() + (row - tile_row) * side * chunks.cols() + (col - tile_col) * side,
                       static_cast<std::ptrdiff_t>(chunks.cols()));
+    std::transform(chunk.begin(), chunk.end(), chunk.begin(), stored);
     chunks.write(tile_row * side, tile_col * side, chunk.data());
   }
 }

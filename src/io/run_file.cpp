@@ -4,8 +4,11 @@
 
 #include <limits>
 
+#include "core/angle.h"
+#include "core/elementary.h"
 #include "core/error.h"
 #include "core/machine.h"
+#include "io/bed_floor.h"
 #include "io/frame_writer.h"
 #include "io/input_kind.h"
 #include "io/scene_toml.h"
@@ -53,7 +56,24 @@ HeightGrid RunFile::initial() const {
 
 HeightField RunFile::initial_bed() const {
   shape();
-  return file_.bed("/surface/initial", cell_size());
+  return surface_on_ground("/surface/initial");
+}
+
+std::shared_ptr<const Ground> RunFile::ground() const {
+  if (ground_ || !file_.has(floor_dataset)) return ground_;
+  const BedGeometry bed(rows(), cols(), cell_size());
+  auto read = std::make_shared<Ground>(bed, elementary::tan(to_radians(scene().relaxation.talus_angle)));
+  read->floor = read_floor(file_, bed);
+  return ground_ = std::move(read);
+}
+
+HeightField RunFile::surface_on_ground(const std::string& dataset) const {
+  HeightField surface = file_.bed(dataset, cell_size());
+  if (const std::shared_ptr<const Ground> under = ground()) {
+    check_above_floor(surface, under->floor, file_.name());
+    surface.lie_on(under);
+  }
+  return surface;
 }
 
 bool RunFile::has_final() const { return file_.has("/surface/final"); }
@@ -75,7 +95,7 @@ HeightGrid RunFile::final() const {
 
 HeightField RunFile::final_bed() const {
   check_final();
-  return file_.bed("/surface/final", cell_size());
+  return surface_on_ground("/surface/final");
 }
 
 TraceContent RunFile::trace_content() const {

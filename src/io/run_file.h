@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "hdf5/hdf5_file.h"
 #include "io/scene_file.h"
+#include "sand/ground.h"
 #include "sim/run_result.h"
 
 namespace sandstroke {
@@ -28,9 +30,12 @@ class RunFile {
   int cols() const;
   HeightGrid initial() const;
   HeightGrid final() const;  ///< error if the run was cut off before its end
-  /// The same as beds of any size: only what the file holds takes memory.
+  /// The same as beds of any size: only what the file holds takes memory. They lie on the run's ground().
   HeightField initial_bed() const;
   HeightField final_bed() const;
+  /// The floor under the run's sand, with one talus for all sand, which only pictures need not know better;
+  /// null: the run has no floor. All beds of a run share it. Error: input, if it is damaged.
+  std::shared_ptr<const Ground> ground() const;
   bool has_final() const;
   bool has_trace() const;
   std::vector<TickRecord> trace() const;  ///< the fields of visit_tick_fields()
@@ -53,9 +58,11 @@ class RunFile {
   std::vector<hsize_t> shape() const;  // of /surface/initial
   void check_final() const;            // that the final surface is there, in the same shape
   TriangleMesh tool_mesh() const;
+  HeightField surface_on_ground(const std::string& dataset) const;
 
   Hdf5Reader file_;
-  double version_ = 0.0;  // of the format
+  double version_ = 0.0;                          // of the format
+  mutable std::shared_ptr<const Ground> ground_;  // once it was asked for
 };
 
 /// The surfaces of a run's frames, put together from what changed. In sequence, each change is read once.

@@ -8,6 +8,7 @@
 #include "core/hash.h"
 #include "core/output_file.h"
 #include "core/version.h"
+#include "io/bed_floor.h"
 #include "io/bed_writer.h"
 #include "io/input_kind.h"
 #include "io/run_file.h"
@@ -131,6 +132,7 @@ void RunWriter::begin(const Simulation& simulation, const ViewSettings& view, co
   write_bed_axes(file_, "/surface", bed);
   file_.attribute("/surface", "cell_size", bed.cell_size());
   if (simulation.scene().tool.mesh) write_tool_mesh(file_, *simulation.scene().tool.mesh);
+  if (has_floor(bed)) write_floor(file_, bed.ground()->floor);
   write_surface("/surface/initial", bed, "height of the sand at the start");
   if (keeps_trace_) {
     file_.write_scale("/trace/axis", {"x", "y", "z"});
@@ -249,8 +251,9 @@ void RunWriter::finish() {
   const std::filesystem::file_status earlier = std::filesystem::status(xdmf);
   std::filesystem::remove(
       xdmf);  // an earlier run's file would describe this run's surface with that run's cells
+  const std::string floor = file_.has(floor_dataset) ? floor_dataset : "";
   file_.finish();
-  write_text_file(xdmf, xdmf_text(path_.filename().string(), frames_.bed(), frames_.steps(seconds_)),
+  write_text_file(xdmf, xdmf_text(path_.filename().string(), frames_.bed(), frames_.steps(seconds_), floor),
                   xdmf_output);
   std::error_code ignored;  // some file systems have no modes
   if (std::filesystem::exists(earlier)) std::filesystem::permissions(xdmf, earlier.permissions(), ignored);

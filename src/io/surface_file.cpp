@@ -51,8 +51,26 @@ HeightGrid last_heights(const RunFile& run, const BedSettings& bed) {
 
 }  // namespace
 
+namespace {
+
+/// Warns, for a bed without a floor, if its file is a run with one.
+void warn_of_lost_floor(const BedSettings& bed, const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / bed.surface.file;
+  if (bed.surface.kind != SurfaceKind::file || !begins_with(path, hdf5_signature) || !RunFile(path).ground())
+    return;
+  spdlog::warn(
+      "{}: has stones or a floor, and this scene has none, so that they are sand here; give the scene the "
+      "same "
+      "ones, which 'sandstroke info --scene' prints",
+      path.string());
+}
+
+}  // namespace
+
 HeightField load_bed(const Scene& scene, const std::filesystem::path& folder) {
-  return on_ground(load_surface(scene.bed, folder), scene);
+  HeightField bed = on_ground(load_surface(scene.bed, folder), scene);
+  if (!has_floor(bed)) warn_of_lost_floor(scene.bed, folder);
+  return bed;
 }
 
 BedSettings with_own_range(BedSettings bed, const std::filesystem::path& folder) {

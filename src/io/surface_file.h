@@ -12,7 +12,8 @@ namespace sandstroke {
 /// resampled by area means. Error: input or io, naming the file.
 HeightField load_surface(const BedSettings& bed, const std::filesystem::path& folder);
 
-/// load_surface() on the ground of the scene (on_ground).
+/// load_surface() on the ground of the scene (on_ground). Warns if the scene has no floor and its surface is
+/// a run with one, whose stones become sand. Error: as load_surface().
 HeightField load_bed(const Scene& scene, const std::filesystem::path& folder);
 
 /// The same bed. If its surface.low and high are equal, it takes those of its PNG (read_gray_range). Error:

@@ -21,8 +21,8 @@ struct XdmfStep {
 
 /// Describes a run file to programs that read XDMF, such as ParaView with each of its readers: a grid in the
 /// plane of x and y, with points at the cells' centres, whose `height` changes over time. run_name: the run
-/// file's path from the XDMF file; steps: in order.
-std::string xdmf_text(const std::string& run_name, const BedGeometry& bed,
-                      const std::vector<XdmfStep>& steps);
+/// file's path from the XDMF file; steps: in order. floor: the dataset of the sand's `floor`; empty: none.
+std::string xdmf_text(const std::string& run_name, const BedGeometry& bed, const std::vector<XdmfStep>& steps,
+                      const std::string& floor = "");
 
 }  // namespace sandstroke

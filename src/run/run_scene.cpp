@@ -33,6 +33,7 @@
 #include "measure/furrow.h"
 #include "measure/stroke_depth.h"
 #include "run/run_progress.h"
+#include "sand/ground.h"
 #include "sim/device_force.h"
 #include "sim/tool_fit.h"
 

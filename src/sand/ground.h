@@ -41,4 +41,7 @@ TalusGround talus_ground(const Ground& ground);
 /// The hash of both fields.
 std::string content_hash(const Ground& ground);
 
+/// Whether a bed lies on a ground that has a floor in any cell.
+bool has_floor(const HeightField& bed);
+
 }  // namespace sandstroke

@@ -9,6 +9,7 @@
 #include "hdf5/hdf5_writer.h"
 #include "io/input_kind.h"
 #include "io/png_file.h"
+#include "kept_log.h"
 #include "test_folder.h"
 
 namespace sandstroke {
@@ -125,6 +126,38 @@ TEST(SurfaceFile, ARunsFinalSurfaceNeedsCellsOfTheBedsSize) {
   std::swap(turned.rows, turned.cols);
   std::swap(turned.width, turned.depth);
   EXPECT_THROW(load_surface(turned, folder.path()), Error);
+}
+
+TEST(SurfaceFile, SandOfARunWithoutItsStonesIsWarnedOf) {
+  const TestFolder folder;
+  const auto warned = [&](const BedSettings& bed) {
+    const KeptLog log;
+    Scene scene;
+    scene.bed = bed;
+    load_bed(scene, folder.path());
+    return log.text();
+  };
+  for (const bool stones : {true, false}) {
+    {
+      Hdf5Writer file(folder / "run.h5", output_kind(InputKind::run));
+      file.attribute("/", "complete", 1.0);
+      file.write("/scene", std::string());
+      file.make_group("/surface");
+      file.attribute("/surface", "cell_size", 0.1);
+      file.write("/surface/initial", HeightGrid::Zero(2, 3));
+      file.write("/surface/final", HeightGrid::Zero(2, 3));
+      if (stones) file.write("/surface/floor", HeightGrid::Constant(2, 3, -1.0));
+      file.finish();
+    }
+    const std::string said = warned(bed_from("run.h5"));
+    EXPECT_EQ(said.find((folder / "run.h5").string() + ": has stones or a floor") != std::string::npos,
+              stones);
+    EXPECT_EQ(said.empty(), !stones) << said;
+    EXPECT_EQ(load_surface(bed_from("run.h5"), folder.path()).ground(), nullptr);
+  }
+  write_gray16(folder / "heights.png", 3, 2, {0, 0, 0, 0, 0, 0});
+  EXPECT_EQ(warned(bed_from("heights.png")), "");
+  EXPECT_EQ(warned(BedSettings{}), "");
 }
 
 TEST(SurfaceFile, HeightsMustBeFinite) {

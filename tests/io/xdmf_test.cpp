@@ -30,5 +30,20 @@ TEST(Xdmf, SaysOfEachStepItsTimeAndItsDatasetOverCellCentresInTheXYPlane) {
                                                                 {0.25, "/surface/final"}}));
 }
 
+TEST(Xdmf, EachStepHasTheFloor) {
+  const BedGeometry bed(4, 5, 0.5);
+  const std::vector<XdmfStep> steps = {{0.0, "/surface/initial"}, {0.25, "/surface/final"}};
+  const auto count = [](const std::string& text, const std::string& words) {
+    int found = 0;
+    for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++found;
+    return found;
+  };
+  const std::string with = xdmf_text("a.h5", bed, steps, "/surface/floor");
+  EXPECT_EQ(count(with, "<Attribute Name=\"floor\""), 2);
+  EXPECT_EQ(count(with, ">a.h5:/surface/floor</DataItem>"), 2);
+  EXPECT_EQ(count(with, ">a.h5:/surface/final</DataItem>"), 1);
+  EXPECT_EQ(count(xdmf_text("a.h5", bed, steps), "floor"), 0);
+}
+
 }  // namespace
 }  // namespace sandstroke
