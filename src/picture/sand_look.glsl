@@ -6,6 +6,10 @@ const vec3 bounce_colour = vec3(0.55, 0.39, 0.23) * 0.55;
 const vec3 dry_sand = vec3(0.64, 0.455, 0.265);
 const vec3 moist_sand = vec3(0.41, 0.275, 0.155);
 
+// What lies under the sand: stones, gray under a sun that is warmer than the sky, and the wood of the box.
+const vec3 bare_stone = vec3(0.24, 0.246, 0.258);
+const vec3 bare_wood = vec3(0.27, 0.155, 0.085);
+
 // A soft light from the side, as of a bright cloud: without it the walls of a furrow along the sun look alike.
 const vec3 side_colour = vec3(0.66, 0.72, 0.90) * 0.6;
 vec3 side_direction() {

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "render/annotate.h"
+#include "render/bare_texture.h"
 #include "render/bed_box.h"
 #include "render/camera.h"
 #include "render/colour_map.h"
@@ -48,8 +49,8 @@ class HeightFieldRenderer::Drawing {
   explicit Drawing(const BedGeometry& bed)
       : bed_(bed),
         surface_(bed),
-        sand_("sand", shaders::surface_vertex(), shaders::sand_fragment()),
-        map_("map", shaders::surface_vertex(), shaders::map_fragment()),
+        sand_("sand", shaders::surface_vertex(), shaders::sand_fragment(false)),
+        map_("map", shaders::surface_vertex(), shaders::map_fragment(false)),
         wall_("box", shaders::solid_vertex(), shaders::box_fragment()),
         ball_("tool", shaders::solid_vertex(), shaders::tool_fragment()),
         surroundings_("surroundings", shaders::surroundings_vertex(), shaders::surroundings_fragment()),
@@ -78,6 +79,9 @@ class HeightFieldRenderer::Drawing {
   void draw_surroundings(const RenderSubject& subject, const Camera& camera, const Sun& sun) const;
   void draw_sand(const RenderSubject& subject, const Camera& camera, const Sun& sun);
   void draw_map(const RenderSubject& subject, const Legend& legend, const Camera& camera, const Sun& sun);
+  /// One that also draws the floor, if the bed has one.
+  const ShaderProgram& sand_program();
+  const ShaderProgram& map_program();
   void draw_tiles(const ShaderProgram& program, const Camera& camera, const std::vector<int>& levels);
   void draw_ground_depth(const Camera& camera) const;
   void draw_wall(RenderStyle style, const Camera& camera, const Sun& sun) const;
@@ -87,10 +91,12 @@ class HeightFieldRenderer::Drawing {
   double wall_radius_ = 0.0;  // m, of a round bed
   CurrentContext context_;    // before all members that live in it
   SurfaceTextures surface_;
+  BareTexture bare_;
   TileMesh tiles_;
   BedBox box_;
   ToolMesh tool_;
   ShaderProgram sand_, map_, wall_, ball_, surroundings_;
+  std::optional<ShaderProgram> sand_on_floor_, map_on_floor_;  // once they are needed
   GlObject sequential_, diverging_, no_vertices_;
   std::unique_ptr<SurfaceTextures> difference_;
   std::unique_ptr<Framebuffer> framebuffer_;
@@ -135,6 +141,20 @@ void HeightFieldRenderer::Drawing::draw_surroundings(const RenderSubject& subjec
   glEnable(GL_DEPTH_TEST);
 }
 
+const ShaderProgram& HeightFieldRenderer::Drawing::sand_program() {
+  if (!bare_.ground()) return sand_;
+  if (!sand_on_floor_)
+    sand_on_floor_.emplace("sand on a floor", shaders::surface_vertex(), shaders::sand_fragment(true));
+  return *sand_on_floor_;
+}
+
+const ShaderProgram& HeightFieldRenderer::Drawing::map_program() {
+  if (!bare_.ground()) return map_;
+  if (!map_on_floor_)
+    map_on_floor_.emplace("map with a floor", shaders::surface_vertex(), shaders::map_fragment(true));
+  return *map_on_floor_;
+}
+
 void HeightFieldRenderer::Drawing::draw_tiles(const ShaderProgram& program, const Camera& camera,
                                               const std::vector<int>& levels) {
   program.set("heights", 0);
@@ -145,6 +165,10 @@ void HeightFieldRenderer::Drawing::draw_tiles(const ShaderProgram& program, cons
   program.set("shading", 1);
   surface_.bind_heights(0);
   surface_.bind_shading(1);
+  if (bare_.ground()) {
+    program.set("bare", 4);
+    bare_.bind(4);
+  }
   const GLint tile_origin = program.location("tile_origin"), skirt_height = program.location("skirt_height"),
               widest = program.location("widest_pixel");
   for (int tile = 0; tile < bed_.tile_count(); ++tile) {
@@ -224,26 +248,28 @@ Camera HeightFieldRenderer::Drawing::camera_for(const RenderSubject& subject, co
 
 void HeightFieldRenderer::Drawing::draw_sand(const RenderSubject& subject, const Camera& camera,
                                              const Sun& sun) {
-  set_light(sand_, camera, sun);
-  set_tool(sand_, subject.tool.value_or(ToolBody{Eigen::Vector3d::Zero(), 0.0}));
-  draw_tiles(sand_, camera, subject.tile_levels);
+  const ShaderProgram& sand = sand_program();
+  set_light(sand, camera, sun);
+  set_tool(sand, subject.tool.value_or(ToolBody{Eigen::Vector3d::Zero(), 0.0}));
+  draw_tiles(sand, camera, subject.tile_levels);
 }
 
 void HeightFieldRenderer::Drawing::draw_map(const RenderSubject& subject, const Legend& legend,
                                             const Camera& camera, const Sun& sun) {
-  set_light(map_, camera, sun);
-  map_.set("values", 2);
-  map_.set("colours", 3);
-  map_.set("range", Eigen::Vector2d(legend.low, legend.high));
-  map_.set("contour_interval", legend.contour_interval);
+  const ShaderProgram& map = map_program();
+  set_light(map, camera, sun);
+  map.set("values", 2);
+  map.set("colours", 3);
+  map.set("range", Eigen::Vector2d(legend.low, legend.high));
+  map.set("contour_interval", legend.contour_interval);
   // On a map from above, and of differences, a colour must mean one value.
   const bool flat = subject.view.name == ViewName::top || subject.view.style == RenderStyle::difference;
-  map_.set("relief", flat ? 0.0 : 1.0);
+  map.set("relief", flat ? 0.0 : 1.0);
   SurfaceTextures& shown = subject.view.style == RenderStyle::difference ? *difference_ : surface_;
   shown.bind_filtered_heights(2);
   glActiveTexture(GL_TEXTURE3);
   glBindTexture(GL_TEXTURE_2D, legend.scale == ColourScale::diverging ? diverging_ : sequential_);
-  draw_tiles(map_, camera, subject.tile_levels);
+  draw_tiles(map, camera, subject.tile_levels);
 }
 
 void HeightFieldRenderer::Drawing::draw_ground_depth(const Camera& camera) const {
@@ -286,6 +312,7 @@ Image HeightFieldRenderer::Drawing::render(const HeightField& surface, const Ren
   wall_radius_ = subject.shape.value_or(surface.shape()) == BedShape::round ? surface.wall_radius() : 0.0;
   counters = {};
   counters.tiles_changed = surface_.update(surface);
+  bare_.update(surface, surface_, !before);
   const Sun sun{view.light_azimuth, view.light_elevation};
   surface_.update_shading(sun);
   std::optional<Legend> legend;  // of a map
@@ -296,9 +323,16 @@ Image HeightFieldRenderer::Drawing::render(const HeightField& surface, const Ren
   box_.update(bed_, start);
   const Camera camera = camera_for(subject, start, legend_part);
 
-  PictureState now{
-      camera,      sun, start, wall_radius_, view.style, subject.box, subject.background, subject.tile_levels,
-      subject.tool};
+  PictureState now{camera,
+                   sun,
+                   start,
+                   wall_radius_,
+                   view.style,
+                   subject.box,
+                   subject.background,
+                   subject.tile_levels,
+                   subject.tool,
+                   bare_.ground()};
   const PixelRect whole = framebuffer_->whole();
   pixels_ = before && !other_size ? changed_pixels(*before, now, surface_, whole) : whole;
   counters.pixels = pixels_.empty() ? 0 : std::int64_t{pixels_.width()} * pixels_.height();

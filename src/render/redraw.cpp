@@ -15,7 +15,7 @@ bool same_but_tool(const PictureState& a, const PictureState& b) {
          a.camera.forward == b.camera.forward && a.camera.orthographic == b.camera.orthographic &&
          a.camera.scale == b.camera.scale && a.sun == b.sun && a.start == b.start &&
          a.wall_radius == b.wall_radius && a.style == b.style && a.box == b.box &&
-         a.background == b.background && a.tile_levels == b.tile_levels;
+         a.background == b.background && a.tile_levels == b.tile_levels && a.ground == b.ground;
 }
 
 /// Boxes around the tool itself, and around the sand whose light it changes (past_tool() of the shader). None

@@ -16,6 +16,7 @@ struct PictureState {
   std::optional<std::array<double, 3>> background;
   std::vector<int> tile_levels;
   std::optional<ToolBody> tool;
+  std::shared_ptr<const Ground> ground;  ///< whose floor is seen where it is bare; null: none
 };
 
 /// A bound on how far [m] the point under a pixel moves, from one pixel to the next, on the sand of a tile of

@@ -1,6 +1,7 @@
 #include "render/shaders.h"
 
 #include "core/asset.h"
+#include "render/floor_look.h"
 
 SANDSTROKE_DECLARE_ASSET(sand_look);
 
@@ -111,8 +112,9 @@ void main() {
 )";
 }
 
-std::string sand_fragment() {
+std::string sand_fragment(bool on_floor) {
   return std::string(version) + light + noise + bed +
+         (on_floor ? std::string("#define ON_FLOOR\n") + floor_parts + floor_look : "") +
          "const float tool_reach = " + std::to_string(tool_reach) + R"(;
 uniform vec4 tool;           // centre and radius; radius 0 = none
 uniform float widest_pixel;  // m, of this tile
@@ -172,11 +174,21 @@ void main() {
   float steep = 1.0 - smoothstep(0.5, 0.7, ground.z);
   vec2 uphill = -steep * ground.xy / max(length(ground.xy), 1e-6);
   vec3 grains = grain(world.xy + world.z * uphill, mix(pixel, footprint, steep));
+#ifdef ON_FLOOR
+  vec2 bare_here = bare_parts(min(pixel, widest_pixel), steep);
+  float sand_here = 1.0 - bare_here.x - bare_here.y;
+  vec3 stone = bare_here.x > 0.0 ? stone_texture(world.xy + world.z * uphill, mix(pixel, footprint, steep)) : vec3(0.0);
+  grains.yz = sand_here * grains.yz + bare_here.x * stone.yz;
+#endif
   vec3 relief = vec3(grains.yz, dot(grains.yz, uphill));
   vec3 normal = normalize(upward - mix(1.0, length(upward), steep) * relief);
   vec2 part = here.zw * past_tool(world, ground);
 
   vec3 albedo = sand_albedo(world.z) * max(1.0 + grains.x, 0.1);
+#ifdef ON_FLOOR
+  albedo = sand_here * albedo + bare_here.x * bare_stone * (1.0 + stone.x) +
+           bare_here.y * bare_wood * (1.0 + board_texture(world.xy, pixel));
+#endif
 
   // Furrow walls light each other, which makes corners less dark, and warmer.
   vec3 sky = part.y / (1.0 - albedo * (1.0 - part.y));
@@ -187,8 +199,9 @@ void main() {
 )";
 }
 
-std::string map_fragment() {
-  return std::string(version) + light + bed + R"(
+std::string map_fragment(bool on_floor) {
+  return std::string(version) + light + bed +
+         (on_floor ? std::string("#define ON_FLOOR\n") + floor_parts : "") + R"(
 uniform sampler2D values;    // m, shown by the colours
 uniform sampler2D colours;   // the colour map, from low to high
 uniform vec2 range;          // m, its ends
@@ -229,6 +242,12 @@ void main() {
   }
   bool dark = dot(mapped, vec3(0.3, 0.6, 0.1)) < 0.35;
   vec3 with_lines = mix(mapped, vec3(dark ? 0.85 : 0.05), 0.6 * line);
+#ifdef ON_FLOOR
+  // Where the floor is bare: lines of gray, between which colours keep their meaning.
+  vec2 parts = bare_parts(pixel, 0.0);
+  float hatch = 1.0 - smoothstep(0.5, 1.2, abs(mod(gl_FragCoord.x + gl_FragCoord.y, 7.0) - 3.5));
+  with_lines = mix(with_lines, vec3(dark ? 0.75 : 0.3), 0.7 * hatch * (parts.x + parts.y));
+#endif
   colour = vec4(mix(with_lines, vec3(0.8), beyond_wall(pixel)), 1.0);
 }
 )";
