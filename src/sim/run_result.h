@@ -13,6 +13,7 @@
 #include "haptics/stroke_sampler.h"
 #include "sand/relaxation.h"
 #include "sand/resistive_force.h"
+#include "sim/source_settings.h"
 
 namespace sandstroke {
 
@@ -316,16 +317,19 @@ struct RunResult {
   std::int64_t ticks = 0;
   double simulated_seconds = 0.0;
   std::int64_t contact_ticks = 0;
-  PlayedPart stroke;  ///< how much of it is played with the tool down, and the gaps
+  std::vector<SourceLedger> sources;  ///< in the scene's order
+  PlayedPart stroke;                  ///< how much of it is played with the tool down, and the gaps
   std::int64_t relaxations = 0;
   /// The sum of all relaxations; residual and converged are the last one's.
   RelaxationOutcome relaxation{.converged = true};
   DeviceResult device;
-  double volume_initial = 0.0;     ///< m^3
-  double volume_final = 0.0;       ///< m^3
-  double displaced_volume = 0.0;   ///< m^3, by the tool
-  double moved_volume = 0.0;       ///< m^3, by tool and relaxation
-  double volume_drift = 0.0;       ///< |final - initial| / moved volume; 0 where nothing moved
+  double volume_initial = 0.0;    ///< m^3
+  double volume_final = 0.0;      ///< m^3
+  double displaced_volume = 0.0;  ///< m^3, by the tool
+  double given_volume = 0.0;      ///< m^3, landed from sources, less what sinks have taken
+  double moved_volume = 0.0;      ///< m^3, by tool, relaxation and sources
+  /// |final - initial - given| / moved volume; 0 where nothing moved
+  double volume_drift = 0.0;
   double max_depth = 0.0;          ///< m
   double max_contact_speed = 0.0;  ///< m/s, of the tool in the bed
   /// The largest depth of a tool that is down, touching or not [m]; -infinity: it is never down over the bed.

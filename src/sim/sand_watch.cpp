@@ -71,11 +71,11 @@ double SandWatch::gained(const HeightField& bed) {
   return all.value();
 }
 
-void SandWatch::check(const HeightField& bed, const std::string& law) {
-  const double more = gained(bed) - at_first_;
+void SandWatch::check(const HeightField& bed, const std::string& law, double given) {
+  const double given_heights = given / bed.cell_area(), more = gained(bed) - at_first_ - given_heights;
   if (more == 0.0 || !std::isfinite(at_first_)) return;  // or the given bed was not finite
   if (!std::isfinite(more)) throw Error(ErrorKind::unstable, no_number(bed, law));
-  double sand = 0.0;
+  double sand = std::abs(given_heights);
   for (const TileSum& sum : sums_) sand += sum.sand;
   const double fraction = std::abs(more) / sand;
   if (fraction <= rounding) return;

@@ -13,10 +13,11 @@ class SandWatch {
  public:
   /// bed: before such a law touches it.
   explicit SandWatch(const HeightField& bed);
-  /// Call this after `law` (in words) changed the bed. Looks at the tiles whose revision has changed. Error:
-  /// unstable, naming the law: if a height is not a number, or if there is more or less sand than at first,
-  /// by more than 1e-9 of what lies above and below z = 0.
-  void check(const HeightField& bed, const std::string& law);
+  /// Call this after `law` (in words) changed the bed. given: sand that the bed has got otherwise since the
+  /// constructor [m^3]. Looks at the tiles whose revision has changed. Error: unstable, naming the law: if a
+  /// height is not a number, or if there is more or less sand than at first and given, by more than 1e-9 of
+  /// what lies above and below z = 0 and was given.
+  void check(const HeightField& bed, const std::string& law, double given = 0.0);
 
  private:
   struct TileSum {

@@ -16,6 +16,7 @@
 #include "sand/initial_surface.h"
 #include "sand/relaxation.h"
 #include "sand/resistive_force.h"
+#include "sim/source_settings.h"
 #include "tool/tool_settings.h"
 
 namespace sandstroke {
@@ -73,8 +74,9 @@ struct Scene {
   ToolSettings tool;
   DisplacementSettings displacement;
   ForceSettings force;
-  SandStrength strength;  ///< of the sand, for any force.law but the paper's
+  SandStrength strength;  ///< of the sand, for any force.law but the paper's; sources need its density
   RelaxationSettings relaxation;
+  std::vector<SourceSettings> sources;  ///< of sand, and sinks
   DeviceSettings device;
   std::optional<StrokeSettings> stroke;  ///< without one, the bed is only relaxed
   OutputSettings output;

@@ -14,6 +14,15 @@ namespace sandstroke {
 Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke> stroke,
                        std::unique_ptr<Relaxer> relaxer)
     : loop_(scene, std::move(bed), stroke.has_value(), std::move(relaxer)) {
+  if (loop_.sources()) {
+    if (stroke) loop_.sources()->stop_by(stroke->duration());
+    const double last = loop_.sources()->last_stop();
+    if (!(last * scene.device.servo_rate < 1e15))
+      throw_input_error(
+          "source.stop: the last source stops at {} s: a run cannot play that long; set an earlier stop",
+          last);
+    all_ticks_ = static_cast<std::int64_t>(std::ceil(last * scene.device.servo_rate)) + 1;
+  }
   if (!stroke) return;
   if (!(stroke->duration() * scene.device.servo_rate < 1e15))
     throw_input_error(
@@ -22,6 +31,7 @@ Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke
         stroke->duration(), scene.device.servo_rate);
   check_inside(*stroke, loop_.scene(), loop_.bed());
   ticks_ = static_cast<std::int64_t>(std::floor(stroke->duration() * scene.device.servo_rate + 1e-9)) + 1;
+  all_ticks_ = std::max(all_ticks_, ticks_);
   idle_ = idle_ticks(*stroke, scene.device);
   if (stroke->follows_sand) {
     follower_.emplace(scene.tool, scene.device);
@@ -83,7 +93,17 @@ std::int64_t Simulation::told_ticks() const {
   return told;
 }
 
+double Simulation::seconds() const {
+  const std::optional<SandSources>& sources = loop_.sources();
+  return std::max(stroke_seconds(), sources ? sources->last_stop() : 0.0);
+}
+
 std::int64_t Simulation::idle(const TickRange& ticks) {
+  if (loop_.sources()) {
+    std::int64_t tick = ticks.begin;
+    for (; tick < ticks.end && !interrupted(); ++tick) pour(tick);
+    return tick;
+  }
   const double servo_rate = scene().device.servo_rate, rate = scene().relaxation.rate;
   std::int64_t tick = ticks.begin, at_rest_from = ticks.end;
   for (; tick < ticks.end && !interrupted(); ++tick) {
@@ -103,6 +123,15 @@ std::int64_t Simulation::idle(const TickRange& ticks) {
                                                      times_due(at_rest_from, servo_rate, rate));
   result_.ticks += tick - ticks.begin;
   return tick;
+}
+
+void Simulation::pour(std::int64_t tick) {
+  const double servo_rate = scene().device.servo_rate, time = static_cast<double>(tick) / servo_rate;
+  loop_.pour(time);
+  if (loop_.relaxation_comes_due(tick)) relax(time);
+  if (comes_due(tick, servo_rate, scene().output.frames))
+    keep_frame(static_cast<double>(tick + 1) / servo_rate);
+  result_.ticks += 1;
 }
 
 RelaxationOutcome Simulation::relax(double time) {
@@ -133,6 +162,36 @@ void Simulation::visit_state(StateVisitor& state) {
   for (SimulationObserver* observer : observers_) observer->visit_state(state);
 }
 
+void Simulation::begin(const std::string& state) {
+  if (!state.empty()) {
+    StateRestorer restorer(state);
+    visit_state(restorer);
+    return restorer.end();
+  }
+  if (stroke_) {
+    hand_ = hand_at(stroke_->start_time());
+    loop_.start(hand_);
+  }
+  if (scene().output.frames > 0.0) tell([&](auto& observer) { observer.on_frame(0.0, bed()); });
+}
+
+void Simulation::end_tick(const Checkpoints& checkpoints) {
+  const double done = std::min(1.0, static_cast<double>(next_tick_) / static_cast<double>(all_ticks_));
+  tell([&](auto& observer) { observer.on_progress(done); });
+  if (!checkpoints.due || !checkpoints.due() || interrupted()) return;
+  StateKeeper keeper;
+  visit_state(keeper);
+  checkpoints.keep(std::move(keeper).kept());
+}
+
+void Simulation::run_sources(const Checkpoints& checkpoints) {
+  if (!interrupted()) loop_.lift();
+  while (!loop_.sources()->ended() && !interrupted()) {
+    pour(next_tick_++);
+    end_tick(checkpoints);
+  }
+}
+
 void Simulation::run_stroke(const Checkpoints& checkpoints) {
   const double servo_rate = scene().device.servo_rate;
   const double begin = stroke_->start_time();
@@ -140,16 +199,6 @@ void Simulation::run_stroke(const Checkpoints& checkpoints) {
     return std::min(begin + static_cast<double>(tick) / servo_rate, stroke_->end_time());
   };
   RecordedForce recorded(stroke_->stroke());
-  if (!checkpoints.from.empty()) {
-    StateRestorer restorer(checkpoints.from);
-    visit_state(restorer);
-    restorer.end();
-  } else {
-    hand_ = hand_at(begin);
-    loop_.start(hand_);
-    if (scene().output.frames > 0.0) tell([&](auto& observer) { observer.on_frame(0.0, bed()); });
-  }
-
   double time = 0.0;
   const std::function<void()> relax_now = [&] { relax(time); };
   for (std::int64_t k = next_tick_; k < ticks_ && !interrupted(); ++k) {
@@ -170,18 +219,11 @@ void Simulation::run_stroke(const Checkpoints& checkpoints) {
     hand_ = record.next;
     account(record);
     tell([&](auto& observer) { observer.on_tick(record); });
-    if (comes_due(k, servo_rate, scene().relaxation.rate)) relax(time);
+    if (loop_.relaxation_comes_due(k)) relax(time);
     if (comes_due(k, servo_rate, scene().output.frames)) keep_frame(static_cast<double>(k + 1) / servo_rate);
-    const double done = static_cast<double>(k + 1) / static_cast<double>(ticks_);
-    tell([&](auto& observer) { observer.on_progress(done); });
     next_tick_ = k + 1;
-    if (checkpoints.due && checkpoints.due() && !interrupted()) {
-      StateKeeper keeper;
-      visit_state(keeper);
-      checkpoints.keep(std::move(keeper).kept());
-    }
+    end_tick(checkpoints);
   }
-  result_.simulated_seconds = static_cast<double>(result_.ticks) / servo_rate;
   result_.stroke = played_part(*stroke_);
 }
 
@@ -189,7 +231,10 @@ RunResult Simulation::run(const Observers& observers, const Checkpoints& checkpo
   observers_ = observers;
   watch_ = {};
   result_.volume_initial = bed().volume();
+  if (stroke_ || loop_.sources()) begin(checkpoints.from);
   if (stroke_) run_stroke(checkpoints);
+  if (loop_.sources()) run_sources(checkpoints);
+  result_.simulated_seconds = static_cast<double>(result_.ticks) / scene().device.servo_rate;
   if (!interrupted()) {
     loop_.lift();
     relax(result_.simulated_seconds);
@@ -199,11 +244,18 @@ RunResult Simulation::run(const Observers& observers, const Checkpoints& checkpo
   }
   result_.volume_final = bed().volume();
   result_.moved_volume = result_.relaxation.moved_volume + result_.displaced_volume;
+  if (const std::optional<SandSources>& sources = loop_.sources()) {
+    result_.sources = sources->ledgers();
+    result_.given_volume = sources->given_volume();
+    result_.moved_volume += sources->moved_volume();
+  }
   if (!std::isfinite(result_.volume_final) || !std::isfinite(result_.moved_volume))
-    throw Error(ErrorKind::unstable,
-                "the sand's volume is too large for a number; lower the heights of bed.surface");
+    throw Error(
+        ErrorKind::unstable,
+        "the sand's volume is too large for a number; lower the heights of bed.surface, or source.rate");
   if (result_.moved_volume > 0.0)
-    result_.volume_drift = std::abs(result_.volume_final - result_.volume_initial) / result_.moved_volume;
+    result_.volume_drift =
+        std::abs(result_.volume_final - result_.volume_initial - result_.given_volume) / result_.moved_volume;
   result_.device = loop_.device_result();
   result_.wall_seconds = seconds_before_ + watch_.seconds();
   return result_;

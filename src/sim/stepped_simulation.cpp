@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "core/error.h"
-#include "rules/schedule.h"
 
 namespace sandstroke {
 
@@ -39,7 +38,7 @@ const TickRecord& SteppedSimulation::tick(Hand hand, const ToldMotion& told) {
                       [this] {
                         if (relaxes_) relax();
                       }});
-  if (relaxes_ && comes_due(ticks_, scene().device.servo_rate, scene().relaxation.rate)) relax();
+  if (relaxes_ && loop_.relaxation_comes_due(ticks_)) relax();
   ++ticks_;
   return *last_;
 }

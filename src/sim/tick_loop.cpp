@@ -1,6 +1,7 @@
 #include "sim/tick_loop.h"
 
 #include "core/error.h"
+#include "rules/schedule.h"
 #include "sand/ground.h"
 #include "sim/plugin_laws.h"
 #include "tool/tool_surface.h"
@@ -17,10 +18,12 @@ TickLoop::TickLoop(const Scene& scene, HeightField bed, bool plays, std::unique_
       device_(scene),
       relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene, bed_.cell_size())) {
   if (plays && bed_.ground() && bed_.ground()->has_floor()) floor_.emplace(scene.tool, bed_.cell_size());
+  if (!scene.sources.empty()) sources_.emplace(scene.sources, scene.strength.density);
   if (!scene.plugin_laws.relaxation.empty() || !scene.plugin_laws.displacement.empty()) watch_.emplace(bed_);
 }
 
 TickRecord TickLoop::step(const TickInput& tick) {
+  if (sources_) pour(tick.time);
   TickRecord record = read_device(tick);
   if (tick.hand.down) {
     if (tick.turns) turn_tool(tick.hand);
@@ -85,8 +88,17 @@ RelaxationOutcome TickLoop::relax(const PassWatcher& watcher) {
   check_plugin_law("displacement", scene().plugin_laws.displacement);
   const RelaxationOutcome outcome = relaxer_->relax(bed_, watcher);
   sand_.relaxed(bed_);
+  if (sources_) sources_->settled();
   check_plugin_law("relaxation", scene().plugin_laws.relaxation);
   return outcome;
+}
+
+bool TickLoop::relaxation_comes_due(std::int64_t tick) const {
+  const RelaxationSettings& settings = scene().relaxation;
+  const double servo_rate = scene().device.servo_rate;
+  if (comes_due(tick, servo_rate, settings.rate)) return true;
+  return sources_ && sources_->unsettled() && settings.rate == 0.0 && settings.way > 0.0 &&
+         comes_due(tick, servo_rate, published_relaxation_rate);
 }
 
 void TickLoop::visit_state(StateVisitor& state) {
@@ -97,6 +109,7 @@ void TickLoop::visit_state(StateVisitor& state) {
   if (floor_) floor_->visit_state(state);
   device_.visit_state(state);
   relaxer_->visit_state(state);
+  if (sources_) sources_->visit_state(state);
   bool shows_rest = at_rest_.has_value();
   state.value("at_rest", shows_rest);
   if (state.restores()) at_rest_.reset();
@@ -128,7 +141,9 @@ void TickLoop::check_near(const TickRecord& record) const {
 }
 
 void TickLoop::check_plugin_law(const char* key, const std::string& name) {
-  if (!name.empty()) watch_->check(bed_, law_in_words(scene().plugin_laws, key, name));
+  if (!name.empty())
+    watch_->check(bed_, law_in_words(scene().plugin_laws, key, name),
+                  sources_ ? sources_->given_volume() : 0.0);
 }
 
 }  // namespace sandstroke

@@ -9,6 +9,7 @@
 #include "sim/device_side.h"
 #include "sim/sand_at_rest.h"
 #include "sim/sand_side.h"
+#include "sim/sand_sources.h"
 #include "sim/sand_watch.h"
 #include "sim/tool_force.h"
 
@@ -42,14 +43,22 @@ class TickLoop {
 
   /// The device is where the hand is, and moves as it does.
   void start(const Hand& hand) { device_.start(hand); }
-  /// The stages of a tick, in this order: the device is read, the tool displaces sand, and the device
-  /// feels the sand's force.
+  /// The stages of a tick, in this order: sources pour, the device is read, the tool displaces sand, and the
+  /// device feels the sand's force.
   TickRecord step(const TickInput& tick);
   /// The device goes to the tick's end; where the hand is lifted before it (record.lifts), with it. Error:
   /// unstable, where force or device leave all bounds.
   void advance(const TickRecord& record);
   /// The tool touches nothing.
   void lift();
+  /// A tick from this time [s] on without a hand: sources pour, which the scene must have.
+  void pour(double time) { sources_->act(bed_, time + 1.0 / scene().device.servo_rate); }
+  /// None: the scene has none.
+  std::optional<SandSources>& sources() { return sources_; }
+  const std::optional<SandSources>& sources() const { return sources_; }
+  /// Whether sand has to relax in this tick, counted from the run's start, by relaxation.rate. Where that is
+  /// 0 and sand relaxes by the tool's way alone, what sources pour relaxes at the published rate.
+  bool relaxation_comes_due(std::int64_t tick) const;
   /// All that later ticks depend on. Error: input, if a plugin law has a part in them.
   void visit_state(StateVisitor& state);
   /// Relaxes the sand to rest, around a solid tool or into the hollow that it has left. Error: unstable,
@@ -76,6 +85,7 @@ class TickLoop {
   std::optional<FloorContact> floor_;  // where the bed has a floor
   DeviceSide device_;
   Copied<Relaxer> relaxer_;
+  std::optional<SandSources> sources_;
   std::optional<SandAtRest> at_rest_;
   std::optional<SandWatch> watch_;  // where a law that is not this library's moves sand
 };
