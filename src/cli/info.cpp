@@ -58,6 +58,8 @@ nlohmann::ordered_json describe(const RunFile& run) {
   facts["frames"] = run.frame_times().size();
   if (const std::optional<ErrorEstimate> error = run.error_estimate())
     facts["error_estimate"] = error_json(*error);
+  if (const std::vector<SourceLedger> sources = run.sources(); !sources.empty())
+    facts["sources"] = sources_json(sources);
   if (run.has_trace()) {
     const std::vector<TickRecord> trace = run.trace();
     const auto [force, depth] = trace_peaks(trace);
@@ -76,6 +78,7 @@ void print_table(const nlohmann::ordered_json& facts) {
   visit_error_fields([&](const FieldText& field, auto) {
     if (std::string(field.units) != "1") units[field.name] = field.units;
   });
+  visit_source_fields([&](const FieldText& field, auto) { units[field.name] = field.units; });
   const nlohmann::ordered_json flat = facts.flatten();
   for (const auto& [path, value] : flat.items()) {
     const auto unit = units.find(path.substr(path.rfind('/') + 1));

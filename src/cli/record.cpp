@@ -174,8 +174,12 @@ std::optional<SceneFile> felt_scene(const RecordArguments& arguments) {
   if (!scene.ground.empty())
     throw_input_error(
         "{}: has a bed.floor, a [[stone]] or a [[sand.region]], which record --feel does not know yet; "
-        "remove "
-        "them from the scene",
+        "remove them from the scene",
+        arguments.felt_scene);
+  if (!scene.sources.empty())
+    throw_input_error(
+        "{}: record --feel takes no [[source]], because its servo loop only moves what the tool moves; "
+        "remove it from the scene",
         arguments.felt_scene);
   scene.tool = with_mesh(scene.tool, fs::path(arguments.felt_scene).parent_path());
   check_tool_fits(scene, arguments.felt_scene);

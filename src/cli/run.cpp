@@ -56,7 +56,9 @@ void print_summary(const RunResult& r, const Scene& scene, const std::string& ou
   print_row("run", output);
   print_row("model", "preset " + preset_name(scene.preset));
   if (!r.interrupted) print_row("for ParaView", beside(output, ".xdmf").string());
-  if (r.ticks > 0) {
+  if (!scene.stroke && r.ticks > 0)
+    print_row("time", fmt::format("{:.3f} s, {} ticks", r.simulated_seconds, r.ticks));
+  if (scene.stroke && r.ticks > 0) {
     print_row("stroke", fmt::format("{:.3f} s, {} ticks, {} in contact", r.simulated_seconds, r.ticks,
                                     r.contact_ticks));
     print_row("speed",
@@ -88,6 +90,8 @@ void print_summary(const RunResult& r, const Scene& scene, const std::string& ou
                               : ""));
     if (r.stroke.gaps > 0) print_row("gaps", played_text(r.stroke));
   }
+  for (const SourceLedger& source : r.sources)
+    print_row(source.asked > 0.0 ? "sink" : "source", text_of(source));
   print_row("sand moved",
             fmt::format("{:.6g} m^3; volume drift {:.1e} of it", r.moved_volume, r.volume_drift));
   const std::string steps =

@@ -203,6 +203,21 @@ std::optional<HeightField> RunFile::error_map() const {
   return file_.bed(map, cell_size());
 }
 
+std::vector<SourceLedger> RunFile::sources() const {
+  if (!file_.has(source_group)) return {};
+  std::vector<SourceLedger> sources;
+  visit_source_fields([&](const FieldText& field, const auto& of) {
+    const std::string name = std::string(source_group) + "/" + field.name;
+    const std::vector<double> column = file_.doubles(name);
+    if (sources.empty()) sources.resize(column.size());
+    if (column.size() != sources.size())
+      throw_input_error("{}: {} has {} rows, but others of its group have {}; the file is damaged",
+                        file_.name(), name, column.size(), sources.size());
+    for (std::size_t i = 0; i < column.size(); ++i) of(sources[i]) = column[i];
+  });
+  return sources;
+}
+
 std::string RunFile::scene_text() const { return file_.text("/scene"); }
 
 SceneFile RunFile::scene() const {

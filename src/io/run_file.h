@@ -16,6 +16,8 @@ namespace sandstroke {
 
 /// The group of attributes that visit_error_fields() names.
 inline constexpr const char* error_group = "/error_estimate";
+/// The group of the columns that visit_source_fields() names, over its scale `source`.
+inline constexpr const char* source_group = "/sources";
 
 /// Reads a run file (HDF5). Error: io, if it cannot be opened; input, if it is no run file or lacks what is
 /// asked for.
@@ -49,6 +51,8 @@ class RunFile {
   /// asked for, too. The time that the estimate took is not stored.
   std::optional<ErrorEstimate> error_estimate() const;
   std::optional<HeightField> error_map() const;
+  /// What each of the scene's sources poured or took; empty if it has none, or the run was cut off.
+  std::vector<SourceLedger> sources() const;
   std::string scene_text() const;  ///< the resolved scene (TOML)
   SceneFile scene() const;         ///< the same, with its tool's mesh
   /// Name and value of each attribute of /provenance.

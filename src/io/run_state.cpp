@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 
 bool keeps_state(const Scene& scene) {
   const PluginLawSettings& laws = scene.plugin_laws;
-  return scene.stroke && laws.relaxation.empty() && laws.displacement.empty() && laws.force.empty();
+  return (scene.stroke || !scene.sources.empty()) && laws.relaxation.empty() && laws.displacement.empty() &&
+         laws.force.empty();
 }
 
 fs::path state_path(const fs::path& run_file) {

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <numeric>
 #include <type_traits>
 
 #include "core/hash.h"
@@ -89,6 +90,30 @@ void write_tool_mesh(Hdf5GridWriter& file, const TriangleMesh& mesh) {
       "triangles of the tool's surface: rows of their corners in vertices, counterclockwise from outside");
 }
 
+std::string source_scale() { return std::string(source_group) + "/source"; }
+
+/// A column per field, and a row per source, counted from 1.
+void write_sources(Hdf5GridWriter& file, const std::vector<SourceLedger>& sources) {
+  std::vector<double> number(sources.size());
+  std::iota(number.begin(), number.end(), 1.0);
+  file.write_scale(source_scale(), number, "", "which [[source]] of the scene");
+  visit_source_fields([&](const FieldText& field, const auto& of) {
+    const std::string name = std::string(source_group) + "/" + field.name;
+    std::vector<double> column;
+    for (const SourceLedger& source : sources) column.push_back(of(source));
+    file.write(name, column);
+    file.describe(name, field.units, field.meaning);
+    file.attach_scales(name, {source_scale()});
+  });
+}
+
+void remove_sources(Hdf5GridWriter& file) {
+  visit_source_fields([&](const FieldText& field, const auto&) {
+    file.remove(std::string(source_group) + "/" + field.name, {source_scale()});
+  });
+  file.remove(source_group);
+}
+
 }  // namespace
 
 double least_bytes(const Simulation& simulation) {
@@ -98,7 +123,7 @@ double least_bytes(const Simulation& simulation) {
     per_tick += static_cast<double>(sizeof(FieldOf<TickRecord, decltype(of)>));  // flags are bytes
   });
   const double trace = scene.output.trace ? per_tick * static_cast<double>(simulation.told_ticks()) : 0.0;
-  const double frames = std::min(scene.output.frames, scene.device.servo_rate) * simulation.stroke_seconds();
+  const double frames = std::min(scene.output.frames, scene.device.servo_rate) * simulation.seconds();
   return trace + bytes_per_frame * frames;
 }
 
@@ -214,6 +239,7 @@ void RunWriter::visit_state(StateVisitor& state) {
     for (const char* later : {final_surface, error_surface})
       file_.remove(later, {"/surface/y", "/surface/x"});
     file_.remove(error_group);
+    remove_sources(file_);
   }
   frames_.visit_state(state);
   if (state.restores()) file_.flush();
@@ -234,6 +260,7 @@ void RunWriter::end(const RunResult& result, const HeightField& surface) {
     file_.attribute(final_surface, "furrow_depth", result.furrow->depth);
     file_.attribute(final_surface, "asked_depth", result.furrow->asked_depth);
   }
+  if (!result.sources.empty()) write_sources(file_, result.sources);
   file_.flush();
 }
 

@@ -214,6 +214,8 @@ std::vector<std::filesystem::path> input_files(const Scene& scene, const std::fi
   for (const StoneSettings& stone : scene.ground.stones)
     if (stone.shape == StoneShape::mesh) files.push_back(folder / stone.file);
   if (!scene.plugin_laws.plugin.empty()) files.push_back(folder / scene.plugin_laws.plugin);
+  for (const SourceSettings& source : scene.sources)
+    if (!source.path.empty()) files.push_back(folder / source.path);
   return files;
 }
 

@@ -74,6 +74,8 @@ nlohmann::ordered_json summary_of_file(const RunFile& file, const KeptRun& run) 
   if (file.has_trace() || !run.scene.scene.stroke) summary["moved_volume"] = moved;
   summary["volume_initial"] = area * run.initial.sum();
   summary["volume_final"] = area * run.final.sum();
+  if (const std::vector<SourceLedger> sources = file.sources(); !sources.empty())
+    summary["sources"] = sources_json(sources);
   if (const std::optional<ErrorEstimate> error = file.error_estimate())
     summary["error_estimate"] = error_json(*error);
   return summary;

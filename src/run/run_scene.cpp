@@ -27,6 +27,7 @@
 #include "io/run_state.h"
 #include "io/run_writer.h"
 #include "io/scene_toml.h"
+#include "io/source_path.h"
 #include "io/stroke_file.h"
 #include "io/surface_file.h"
 #include "measure/force_agreement.h"
@@ -34,6 +35,7 @@
 #include "measure/stroke_depth.h"
 #include "run/run_progress.h"
 #include "sand/ground.h"
+#include "sim/check_sources.h"
 #include "sim/device_force.h"
 #include "sim/tool_fit.h"
 
@@ -112,6 +114,8 @@ Scene with_files(Scene scene, const std::filesystem::path& folder) {
   if (scene.ground.has_mesh()) check_scene(scene, "the scene");
   if (scene.tool.mesh && scene.stroke) check_tool_fits(scene, (folder / scene.tool.file).string());
   scene.plugin_laws = with_plugin(scene.plugin_laws, folder);
+  scene.sources = with_paths(scene.sources, folder);
+  if (!scene.sources.empty()) check_sources(scene, "the scene");
   return scene;
 }
 
@@ -159,7 +163,7 @@ bool is_complete(const std::filesystem::path& output, const std::string& scene,
 /// Says of a run that keeps no state, before any work, why not. Error: input.
 void check_keeps_state(const Scene& scene) {
   if (keeps_state(scene)) return;
-  if (scene.stroke)
+  if (scene.stroke || !scene.sources.empty())
     throw_input_error(
         "the state of a plugin's law is not known, so a run with one keeps none; leave --checkpoint and "
         "--resume out");
@@ -191,11 +195,11 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
     warn_if_any(WarningCode::stroke_deep, depth_warning(scene, simulation.bed(), *stroke, stroke_name));
     warn_if_any(WarningCode::tool_coarse,
                 coarse_tool_warning(scene, deepest_point(scene, simulation.bed(), *stroke).depth));
-    if (!output.empty())
-      check_disk(output, least_bytes(simulation),
-                 "choose another place, free disk space, or store less: output.trace = false, fewer "
-                 "output.frames or an earlier stroke.stop");
   }
+  if (!output.empty() && simulation.seconds() > 0.0)
+    check_disk(output, least_bytes(simulation),
+               "choose another place, free disk space, or store less: output.trace = false, fewer "
+               "output.frames or an earlier stroke.stop");
   const std::string scene_file =
       options.scene_file.empty() ? "" : scene_file_entry(options.scene_file, output);
   std::optional<StateFile> states;

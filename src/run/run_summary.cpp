@@ -1,5 +1,7 @@
 #include "run/run_summary.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <limits>
 
 #include "io/run_file.h"
@@ -65,6 +67,10 @@ nlohmann::ordered_json run_summary(const RunResult& r, const Scene& scene, const
   for (const Warning& warning : r.warnings)
     json["warnings"].push_back(
         {{"code", warning.kind().word}, {"section", warning.kind().section}, {"text", warning.text}});
+  if (!r.sources.empty()) {
+    json["given_volume"] = r.given_volume;
+    json["sources"] = sources_json(r.sources);
+  }
   if (r.followed) json["followed"] = followed_json(*r.followed);
   if (r.recorded_force)
     json["recorded_force"] = {{"ticks", r.recorded_force->ticks},
@@ -76,6 +82,21 @@ nlohmann::ordered_json run_summary(const RunResult& r, const Scene& scene, const
   if (r.error) {
     json["error_estimate"] = error_json(*r.error);
     json["error_estimate"]["wall_seconds"] = r.error->wall_seconds;
+  }
+  return json;
+}
+
+std::string text_of(const SourceLedger& source) {
+  if (source.asked > 0.0) return fmt::format("took {:.4g} kg of {:.4g} kg asked", source.taken, source.asked);
+  return fmt::format("poured {:.4g} kg, landed {:.4g} kg, in the air {:.4g} kg", source.poured, source.landed,
+                     source.in_air);
+}
+
+nlohmann::ordered_json sources_json(const std::vector<SourceLedger>& sources) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const SourceLedger& source : sources) {
+    nlohmann::ordered_json& row = json.emplace_back();
+    visit_source_fields([&](const FieldText& field, const auto& of) { row[field.name] = of(source); });
   }
   return json;
 }

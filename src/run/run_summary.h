@@ -11,6 +11,12 @@ namespace sandstroke {
 /// The results of a run in SI units, for `run --json`. output: the run file. NaN becomes null.
 nlohmann::ordered_json run_summary(const RunResult& result, const Scene& scene, const std::string& output);
 
+/// "poured 0.1 kg, landed ..." in the words of people.
+std::string text_of(const SourceLedger& source);
+
+/// [{"poured": ...}, ...]
+nlohmann::ordered_json sources_json(const std::vector<SourceLedger>& sources);
+
 /// {"height_share": ..., ...}
 nlohmann::ordered_json error_json(const ErrorEstimate& error);
 

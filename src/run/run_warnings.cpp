@@ -35,7 +35,7 @@ std::string in_floor_text(const DeviceResult& result, const Scene& scene) {
 std::vector<Warning> warnings_of_run(const RunResult& result, const Scene& scene) {
   using enum WarningCode;
   std::vector<Warning> warnings;
-  if (result.ticks > 0 && result.contact_ticks == 0)
+  if (scene.stroke && result.ticks > 0 && result.contact_ticks == 0)
     warnings.push_back({nothing_touched, untouched_text(scene, result)});
   if (result.furrow)
     if (const std::string shallow = furrow_warning(scene, *result.furrow); !shallow.empty())

@@ -197,6 +197,25 @@ void visit_relaxation_fields(const Visit& visit) {
       [](auto& record) -> auto& { return record.outcome.moved_volume; });
 }
 
+/// The columns of /sources, as visit_tick_fields().
+template <class Visit>
+void visit_source_fields(const Visit& visit) {
+  using Text = FieldText;
+  visit(
+      Text{"poured", "kg", "sand that left the nozzle"}, [](auto& source) -> auto& { return source.poured; });
+  visit(
+      Text{"landed", "kg", "of that, sand that came down on the bed"},
+      [](auto& source) -> auto& { return source.landed; });
+  visit(
+      Text{"in_air", "kg", "of that, sand that still falls"},
+      [](auto& source) -> auto& { return source.in_air; });
+  visit(
+      Text{"asked", "kg", "sand that a sink would have taken if it had been in its reach"},
+      [](auto& source) -> auto& { return source.asked; });
+  visit(
+      Text{"taken", "kg", "of that, sand that it got"}, [](auto& source) -> auto& { return source.taken; });
+}
+
 /// How well the forces of a run and those that were recorded agree (measure/force_agreement.h).
 struct ForceAgreement {
   std::int64_t ticks = 0;                                              ///< ticks that have both

@@ -52,9 +52,8 @@ void SandSources::open(HeightField& bed, int source, double begin, double end) {
   if (!mouth) return;
   if (s.settings.rate < 0.0) return take(bed, s, *mouth, mass);
   s.poured.add(mass);
-  const double height = std::max(0.0, mouth->z() - bed.height_at(mouth->x(), mouth->y()));  // 0 of a NaN
-  in_air_.push_back(
-      {middle + std::sqrt(2.0 * height / gravity_of_fall), packets_++, mass, mouth->x(), mouth->y(), source});
+  const double fall = fall_time(mouth->z(), bed.height_at(mouth->x(), mouth->y()));
+  in_air_.push_back({middle + fall, packets_++, mass, mouth->x(), mouth->y(), source});
   std::push_heap(in_air_.begin(), in_air_.end(), later);
 }
 
@@ -111,6 +110,10 @@ void SandSources::take(HeightField& bed, Source& sink, const Eigen::Vector3d& mo
   }
   sink.taken.add(got);
   sink.rest = fraction < 1.0 ? mass + sink.rest - got : 0.0;
+}
+
+double SandSources::fall_time(double from, double to) {
+  return from > to ? std::sqrt(2.0 * (from - to) / gravity_of_fall) : 0.0;  // of a NaN, too
 }
 
 std::vector<SourceLedger> SandSources::ledgers() const {

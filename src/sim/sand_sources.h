@@ -29,6 +29,11 @@ class SandSources {
   /// When the last source stops [s].
   double last_stop() const;
 
+  /// The time that sand falls from one height to another [m, s]; 0 where that is no fall.
+  static double fall_time(double from, double to);
+  /// Memory [bytes] that the sand of one call of act() takes in the air, from one source.
+  static constexpr double bytes_per_packet() { return sizeof(Packet); }
+
   /// In the order of the settings.
   std::vector<SourceLedger> ledgers() const;
   /// Sand that the bed has got, less what was taken [m^3].

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/machine.h"
+#include "sim/check_sources.h"
 #include "sim/scene_ground.h"
 #include "sim/tool_fit.h"
 
@@ -397,6 +398,7 @@ void check_scene(const Scene& scene, const std::string& name) {
         "\"faces\", or relaxation.method = \"rkl\"",
         name);
   check_device(scene, name);
+  check_sources(scene, name);
   if (scene.stroke && scene.stroke->file.empty())
     throw_input_error(
         "{}: stroke.file is missing; name a stroke (.toml, .h5 or a table of samples) or remove [stroke]",

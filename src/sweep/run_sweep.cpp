@@ -25,6 +25,7 @@
 #include "io/run_state.h"
 #include "io/scene_toml.h"
 #include "measure/stroke_depth.h"
+#include "sim/check_sources.h"
 #include "sim/tool_fit.h"
 #include "sweep/point_runner.h"
 #include "tool/tool_surface.h"
@@ -210,6 +211,8 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
       scene.tool = inputs_.tool(scene.tool);
       scene.ground = inputs_.ground(scene.ground);
       scene.plugin_laws = inputs_.plugin_laws(scene.plugin_laws);
+      scene.sources = inputs_.sources(scene.sources);
+      check_sources(scene, plan_.scene.string());
     }
     const Scene& scene = scenes.front();  // tool, bed and stroke are those of all
     if (scene.ground.has_mesh()) check_scene(scene, "the scene");
@@ -223,7 +226,7 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
   const auto what = [&] {
     std::string text;
     for (const SceneFile& scene : scenes) text += scene_text(scene);
-    return RunState{commit, text, stroke->hash, content_hash(*bed), plan_.second.has_value()};
+    return RunState{commit, text, stroke ? stroke->hash : "", content_hash(*bed), plan_.second.has_value()};
   };
   const fs::path state_file = folder.state_file(points.front());
   StateFile states(state_file, what, checkpoint);

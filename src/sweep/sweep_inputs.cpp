@@ -5,6 +5,7 @@
 #include "io/mesh_file.h"
 #include "io/plugin_file.h"
 #include "io/scene_toml.h"
+#include "io/source_path.h"
 #include "io/stroke_file.h"
 #include "io/surface_file.h"
 
@@ -100,6 +101,15 @@ PluginLawSettings SweepInputs::plugin_laws(const PluginLawSettings& settings) {
   plugin_laws = with_plugin(plugin_laws, scene_folder_);
   laws = plugin_laws.laws;
   return plugin_laws;
+}
+
+std::vector<SourceSettings> SweepInputs::sources(const std::vector<SourceSettings>& settings) {
+  const std::scoped_lock lock(files_);
+  std::vector<SourceSettings> sources = settings;
+  for (SourceSettings& source : sources) source.stroke = paths_[source.path];
+  sources = with_paths(sources, scene_folder_);
+  for (const SourceSettings& source : sources) paths_[source.path] = source.stroke;
+  return sources;
 }
 
 std::string sand_key(const Scene& scene, const SweepStroke* stroke) {

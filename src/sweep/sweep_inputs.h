@@ -34,6 +34,8 @@ class SweepInputs {
   GroundSettings ground(GroundSettings settings);
   /// The same settings, with the laws of their plugin if they name one.
   PluginLawSettings plugin_laws(const PluginLawSettings& settings);
+  /// With their paths loaded.
+  std::vector<SourceSettings> sources(const std::vector<SourceSettings>& settings);
 
   int strokes_loaded() const { return strokes_loaded_; }
   int beds_loaded() const { return beds_loaded_; }
@@ -51,6 +53,7 @@ class SweepInputs {
   std::map<std::pair<std::string, double>, std::shared_ptr<const TriangleMesh>> meshes_,
       stones_;                                                        // by file and scale
   std::map<std::string, std::shared_ptr<const PluginLaws>> plugins_;  // by file
+  std::map<std::string, std::shared_ptr<const Stroke>> paths_;        // of sources, by file
   int strokes_loaded_ = 0, beds_loaded_ = 0;
 };
 

@@ -24,7 +24,7 @@ std::string fault_of(const HeightGrid& start, const HeightGrid& end, double cell
 
   const double low = start.minCoeff(), high = start.maxCoeff(),
                size = std::max(std::abs(low), std::abs(high));
-  const double lost = std::abs(r.volume_final - r.volume_initial);
+  const double lost = std::abs(r.volume_final - r.volume_initial - r.given_volume);
   const double tallest = std::max(size, end.abs().maxCoeff());
   const double rounding = 1e-14 * tallest * cell_area * static_cast<double>(end.size());
   if (!(lost <= 1e-12 * r.moved_volume + rounding))
