@@ -71,9 +71,18 @@ std::optional<double> RunView::lag() const {
   return state_.max_lateness > late ? std::optional(state_.max_lateness) : std::nullopt;
 }
 
-/// Shows the bed after the stroke, when nothing waits for the clock.
-void RunView::on_relaxation(const RelaxationRecord&) {
-  if (!playing_) bed_.publish(simulation_.bed());
+/// Shows the bed where no tick is told: as sources go on without a hand, in real time, and at the end, when
+/// nothing waits for the clock.
+void RunView::on_relaxation(const RelaxationRecord& relaxation) {
+  if (playing_ && relaxation.time < simulation_.stroke_seconds()) return;
+  if (playing_) {
+    if (!clock_) clock_.emplace();
+    wait_until(relaxation.time);
+    state_.time = relaxation.time;
+    state_.tip_known = false;
+    shown_.publish(state_);
+  }
+  bed_.publish(simulation_.bed());
 }
 
 void RunView::on_pass(std::int64_t, const BedNow& bed_now) {

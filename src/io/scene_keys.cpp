@@ -1,6 +1,11 @@
 #include "io/scene_keys.h"
 
 namespace sandstroke {
+namespace {
+
+constexpr const char* density_condition = "force.law is rft or archimedes, or where there is a [[source]]";
+
+}  // namespace
 
 std::vector<KeySection> scene_settings(const SceneFile& scene) {
   SceneFile copy = scene;  // a visitor could change it; this one does not
@@ -8,13 +13,19 @@ std::vector<KeySection> scene_settings(const SceneFile& scene) {
 }
 
 std::vector<KeySection> all_scene_keys() {
-  return all_keys([](KeyVisitor& visitor) {
+  std::vector<KeySection> sections = all_keys([](KeyVisitor& visitor) {
     SceneFile scene;
     scene.stroke.emplace().table.emplace();
     scene.ground.regions.emplace_back();
     scene.ground.stones.emplace_back();
+    scene.sources.emplace_back();
     describe_scene_file(visitor, scene);
   });
+  // No choice shows it alone, so that the keys themselves do not tell.
+  for (KeySection& section : sections)
+    for (KeyRow& key : section.keys)
+      if (key.name == "force.density") key.condition = density_condition;
+  return sections;
 }
 
 std::string setting_unit(const SceneFile& scene, const std::string& name) {

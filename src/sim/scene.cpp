@@ -103,7 +103,12 @@ void describe_tool(KeyVisitor& v, ToolSettings& tool) {
   v.flag("solid", tool.solid, "no sand flows under the tool while the tool touches sand");
 }
 
-void describe_force(KeyVisitor& v, ForceSettings& force, SandStrength& sand) {
+void describe_density(KeyVisitor& v, SandStrength& sand) {
+  v.number("density", sand.density, positive, "kg/m^3", "bulk density of the sand");
+}
+
+/// pours: the scene has sources, which need the sand's density.
+void describe_force(KeyVisitor& v, ForceSettings& force, SandStrength& sand, bool pours) {
   v.section("force", "the force of the sand on the device");
   choose(v, "law", force.law, {"paper", "rft", "archimedes"},
          "the published law of depth and velocity; resistive force theory over the tool's surface, in "
@@ -113,6 +118,7 @@ void describe_force(KeyVisitor& v, ForceSettings& force, SandStrength& sand) {
     v.number("k_c", force.k_c, positive, "1/m", "growth of the repulse force with depth");
     v.number("k_f", force.k_f, not_negative, "s/m", "drag k_f velocity x repulse force");
     choose(v, "drag", force.drag, {"horizontal", "full"}, "part of the velocity that causes drag");
+    if (pours) describe_density(v, sand);
     return;
   }
   choose(v, "sand", sand.preset, {"dry", "quikrete"},
@@ -120,7 +126,7 @@ void describe_force(KeyVisitor& v, ForceSettings& force, SandStrength& sand) {
   if (v.reads()) apply_sand_preset(sand);
   v.number("friction_angle", sand.friction_angle, {5.0, 60.0, false}, "deg",
            "angle of internal friction of the sand, from a shear test");
-  v.number("density", sand.density, positive, "kg/m^3", "bulk density of the sand");
+  describe_density(v, sand);
   if (force.law == ForceLaw::rft)
     v.number("tool_friction", sand.tool_friction, not_negative, "", "friction of sand on the tool's surface");
   v.number("yield", sand.yield_way, {1e-6, 1.0, false}, "m",
@@ -344,7 +350,10 @@ void describe_scene(KeyVisitor& v, Scene& scene) {
     v.number("distance", scene.displacement.distance, {1.0, 1.4, false}, "R",
              "distance from the tool's axis");
 
-  describe_force(v, scene.force, scene.strength);
+  show_tables(v, "source", scene.sources, "a nozzle that pours sand onto the bed, or takes some from it",
+              describe_source);
+
+  describe_force(v, scene.force, scene.strength, !scene.sources.empty());
 
   describe_relaxation(v, scene.relaxation);
   describe_device(v, scene.device);

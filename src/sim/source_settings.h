@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "core/key_visitor.h"
 #include "haptics/stroke.h"
 
 namespace sandstroke {
@@ -19,6 +20,9 @@ struct SourceSettings {
   std::string path;                      ///< file of a stroke that the nozzle follows; empty: it stays
   std::shared_ptr<const Stroke> stroke;  ///< that stroke, once it is loaded
 };
+
+/// Shows the keys of one [[source]].
+void describe_source(KeyVisitor& visitor, SourceSettings& source);
 
 /// What a source has poured, or a sink has taken [kg].
 struct SourceLedger {

@@ -29,7 +29,8 @@ const std::vector<std::string> stroke = {"stroke.file=x.h5"}, dynamic = {"device
                                read_from = {"bed.surface.kind=file", "bed.surface.file=y.h5"},
                                rkl = {"relaxation.method=rkl"}, rft = {"force.law=rft"},
                                archimedes = {"force.law=archimedes"},
-                               outward = {"displacement.deposit=outward"};
+                               outward = {"displacement.deposit=outward"},
+                               source = {"source=[{at = [0, 0, 0.1], rate = 0.1, path = \"y.h5\"}]"};
 
 const std::vector<std::string> region = {"sand.region=[{talus_angle = 33.0}]"},
                                round = {"sand.region=[{talus_angle = 33.0, shape = 'circle'}]"},
@@ -134,6 +135,13 @@ const std::vector<KeyCase> cases = {
     {"force.friction_angle=33.0", [](S s) { return s.strength.friction_angle == 33.0; }, archimedes},
     {"force.density=1601.0", [](S s) { return s.strength.density == 1601.0; }, rft},
     {"force.density=1602.0", [](S s) { return s.strength.density == 1602.0; }, archimedes},
+    {"force.density=1603.0", [](S s) { return s.strength.density == 1603.0; }, source},
+    {"source.1.path=x.h5", [](S s) { return s.sources[0].path == "x.h5"; }, source},
+    {"source.1.at=[0.4, -0.5, 0.6]", [](S s) { return is(s.sources[0].at, 0.4, -0.5, 0.6); }, source},
+    {"source.1.rate=-0.07", [](S s) { return s.sources[0].rate == -0.07; }, source},
+    {"source.1.radius=0.008", [](S s) { return s.sources[0].radius == 0.008; }, source},
+    {"source.1.start=0.9", [](S s) { return s.sources[0].start == 0.9; }, source},
+    {"source.1.stop=1.9", [](S s) { return s.sources[0].stop == 1.9; }, source},
     {"force.tool_friction=0.31", [](S s) { return s.strength.tool_friction == 0.31; }, rft},
     {"force.yield=0.002", [](S s) { return s.strength.yield_way == 0.002; }, rft},
     {"force.yield=0.003", [](S s) { return s.strength.yield_way == 0.003; }, archimedes},

@@ -10,6 +10,7 @@ const std::vector<ProblemMaker>& problem_makers() {
       {"cliff", cliff_problem},
       {"trench", trench_problem},
       {"octagon", crater_problem},
+      {"poured", poured_problem},
       {"plunge", plunge_problem},
       {"drag", drag_problem},
       {"blade", blade_problem},

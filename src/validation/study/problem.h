@@ -144,6 +144,8 @@ Problem cliff_problem(const ProblemOptions& options);
 Problem trench_problem(const ProblemOptions& options);
 // Sand that drains (crater.cpp).
 Problem crater_problem(const ProblemOptions& options);
+// Sand that is poured (pouring.cpp).
+Problem poured_problem(const ProblemOptions& options);
 // The device's work, against closed forms (contact.cpp).
 Problem plunge_problem(const ProblemOptions& options);
 Problem drag_problem(const ProblemOptions& options);
