@@ -105,7 +105,6 @@ class RandomScene {
       SphereTool placed(tool);
       placed.place(*one, at.x, at.y);
       placed.displace(*one, placed.sand_level() - at.depth, at.motion, deposit);
-      if (one->ground()) one->lie_on(one->shared_ground());
       if (stays)
         placed.make_walls(*one);
       else
