@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/error.h"
 #include "core/interrupt.h"
 #include "core/parallel.h"
 #include "rules/talus.h"
@@ -73,6 +74,8 @@ class GroundMaker {
           {area, sandstroke::talus_slope(region.talus_angle), tiles_in(bed, box.min(), box.max())});
     }
     for (const StoneSettings& stone : settings.stones) {
+      if (stone.shape == StoneShape::mesh && !stone.mesh)
+        throw_input_error("{}: the mesh of a stone was not read; run the scene from its file", stone.file);
       const StoneSurface surface(stone);
       const Eigen::AlignedBox3d box = surface.bounds();
       std::optional<double> slope;

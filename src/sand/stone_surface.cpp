@@ -19,6 +19,11 @@ double sample_offset(int sample) {
   return (sample - samples_across / 2) / static_cast<double>(samples_across);
 }
 
+/// Of a triangle seen from above [m^2]: above 0 if it faces up.
+double doubled_area(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
 }  // namespace
 
 StoneSurface::StoneSurface(const StoneSettings& stone)
@@ -47,8 +52,30 @@ StoneSurface::StoneSurface(const StoneSettings& stone)
         corners_.push_back(place(vertex));
         bounds_.extend(corners_.back());
       }
+      sort_into_bands();
       return;
   }
+}
+
+void StoneSurface::sort_into_bands() {
+  constexpr std::size_t bands = 64;
+  bands_.resize(bands);
+  for (std::size_t i = 0; i < stone_.mesh->triangles.size(); ++i) {
+    const auto& [first, second, third] = stone_.mesh->triangles[i];
+    const Eigen::Vector3d &a = corners_[static_cast<std::size_t>(first)],
+                          &b = corners_[static_cast<std::size_t>(second)],
+                          &c = corners_[static_cast<std::size_t>(third)];
+    if (!(doubled_area(a, b, c) > 0.0)) continue;  // it faces down, or is seen from its edge
+    const std::size_t last = band_at(std::max({a.y(), b.y(), c.y()}));
+    for (std::size_t band = band_at(std::min({a.y(), b.y(), c.y()})); band <= last; ++band)
+      bands_[band].push_back(static_cast<std::int32_t>(i));
+  }
+}
+
+std::size_t StoneSurface::band_at(double y) const {
+  const double share = (y - bounds_.min().y()) / bounds_.sizes().y(),
+               last = static_cast<double>(bands_.size() - 1);
+  return static_cast<std::size_t>(std::clamp(share * (last + 1.0), 0.0, last));
 }
 
 double StoneSurface::height(double x, double y) const {
@@ -76,18 +103,17 @@ void StoneSurface::raise_to_mesh(const BedGeometry& bed, const CellRange& cells,
     return static_cast<int>(
         std::clamp(std::floor((place - first) / step) + 1.0, 0.0, static_cast<double>(count)));
   };
-  for (const std::array<std::int32_t, 3>& triangle : stone_.mesh->triangles) {
-    const auto corner = [&](int which) -> const Eigen::Vector3d& {
-      return corners_[static_cast<std::size_t>(triangle[static_cast<std::size_t>(which)])];
-    };
-    const Eigen::Vector3d &a = corner(0), &b = corner(1), &c = corner(2);
+  const auto raise = [&](std::int32_t triangle) {
+    const auto& [first, second, third] = stone_.mesh->triangles[static_cast<std::size_t>(triangle)];
+    const Eigen::Vector3d &a = corners_[static_cast<std::size_t>(first)],
+                          &b = corners_[static_cast<std::size_t>(second)],
+                          &c = corners_[static_cast<std::size_t>(third)];
     const auto [low_x, high_x] = std::minmax({a.x(), b.x(), c.x()});
     const auto [low_y, high_y] = std::minmax({a.y(), b.y(), c.y()});
     const int col_begin = from(low_x, first_x, across), col_end = until(high_x, first_x, across);
     const int row_begin = from(low_y, first_y, along), row_end = until(high_y, first_y, along);
-    if (col_begin >= col_end || row_begin >= row_end) continue;
-    const double area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-    if (!(area > 0.0)) continue;  // it faces down, or is seen from its edge
+    if (col_begin >= col_end || row_begin >= row_end) return;
+    const double area = doubled_area(a, b, c);
     for (int row = row_begin; row < row_end; ++row)
       for (int col = col_begin; col < col_end; ++col) {
         const double x = first_x + col * step, y = first_y + row * step;
@@ -101,7 +127,11 @@ void StoneSurface::raise_to_mesh(const BedGeometry& bed, const CellRange& cells,
                                  static_cast<std::size_t>(col)];
         sample = std::max(sample, (of_a * a.z() + of_b * b.z() + of_c * c.z()) / area);
       }
-  }
+  };
+  // A triangle in two bands is raised to twice, which changes nothing.
+  const std::size_t last = band_at(first_y + along * step);
+  for (std::size_t band = band_at(first_y); band <= last; ++band)
+    for (const std::int32_t triangle : bands_[band]) raise(triangle);
 }
 
 void StoneSurface::fill(const BedGeometry& bed, const CellRange& cells, double* out,

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <vector>
 
 #include "sand/bed_geometry.h"
@@ -24,6 +25,8 @@ class StoneSurface {
 
  private:
   double height(double x, double y) const;
+  void sort_into_bands();
+  std::size_t band_at(double y) const;
   /// Raises the samples of `cells` to the triangles above them.
   void raise_to_mesh(const BedGeometry& bed, const CellRange& cells, std::vector<double>& samples) const;
 
@@ -31,6 +34,7 @@ class StoneSurface {
   double cos_, sin_;                      // of the turn
   std::vector<Eigen::Vector3d> corners_;  // of a mesh, where they lie on the bed
   Eigen::AlignedBox3d bounds_;
+  std::vector<std::vector<std::int32_t>> bands_;  // its triangles that face up, by bands of y that they meet
 };
 
 }  // namespace sandstroke

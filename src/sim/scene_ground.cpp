@@ -16,7 +16,7 @@ namespace sandstroke {
 namespace {
 
 constexpr double farthest = 1e6, highest = 1000.0;  // m
-constexpr std::size_t most_corners = 1000;
+constexpr std::size_t most_corners = 1000, most_regions = 1000, most_stones = 10'000;
 
 void describe_region(KeyVisitor& v, SandRegion& region) {
   choose(v, "shape", region.shape, {"rectangle", "circle", "polygon"}, "its outline");
@@ -134,9 +134,12 @@ void check_stone(const StoneSettings& stone, const Scene& scene, const std::stri
         name, key, box.max().z(), *floor);
 }
 
-/// Error: input, if two of them are equal.
+/// Error: input, if two of them are equal, or if they are more than `most`.
 template <class Settings>
-void check_different(const std::vector<Settings>& list, const char* key, const std::string& name) {
+void check_list(const std::vector<Settings>& list, std::size_t most, const char* key,
+                const std::string& name) {
+  if (list.size() > most)
+    throw_input_error("{}: has {} [[{}]] tables; give {} or fewer", name, list.size(), key, most);
   for (std::size_t i = 0; i < list.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (list[i] == list[k])
@@ -189,12 +192,12 @@ void describe_ground(KeyVisitor& v, GroundSettings& ground) {
 void check_ground(const Scene& scene, const std::string& name) {
   const GroundSettings& ground = scene.ground;
   if (ground.empty()) return;
+  check_list(ground.regions, most_regions, "sand.region", name);
+  check_list(ground.stones, most_stones, "stone", name);
   for (std::size_t i = 0; i < ground.regions.size(); ++i)
     check_region(ground.regions[i], scene.bed, name, fmt::format("sand.region.{}", i + 1));
   for (std::size_t i = 0; i < ground.stones.size(); ++i)
     check_stone(ground.stones[i], scene, name, fmt::format("stone.{}", i + 1));
-  check_different(ground.regions, "sand.region", name);
-  check_different(ground.stones, "stone", name);
   check_laws(scene, name);
   check_floor_stiffness(scene, name);
 }

@@ -244,6 +244,42 @@ TEST_F(APlan, ChecksTheValuesOfAnAxisThatAppliesOnlyWithAnotherKind) {
 }
 
 /// A plan of a few kilobytes could ask for 1e10 numbers.
+TEST_F(APlan, VariesStonesRegionsAndTheFloor) {
+  const std::string garden =
+      "[bed]\nsize = [0.3, 0.3]\ncells = [60, 60]\nfloor = -0.02\n[tool]\nradius = 0.01\n"
+      "[[sand.region]]\ntalus_angle = 35.0\n[[stone]]\ncentre = [0.0, 0.0, 0.0]\n"
+      "[[stone]]\nshape = 'box'\ncentre = [0.1, 0.0, 0.0]\n";
+  put_text(folder / "scenes/scene.toml", garden);
+  const SweepPlan plan = load(std::string(begin_plan) +
+                              "[set]\nstone.2.turn = 20.0\n[axes]\nstone.1.radius = [0.02, 0.03]\n"
+                              "bed.floor = { from = -0.04, to = -0.02, count = 3 }\n"
+                              "sand.region.1.talus_angle = [30.0, 40.0]\n");
+  EXPECT_EQ(plan.design.shape(), (std::vector<std::size_t>{2, 3, 2}));
+  EXPECT_EQ(plan.design.axes[0].unit, "m");
+  EXPECT_EQ(plan.design.axes[2].unit, "deg");
+  const SceneFile last = plan.scene_of(11);
+  EXPECT_EQ(last.ground.stones[0].radius, 0.03);
+  EXPECT_EQ(last.ground.stones[1].turn, 20.0);
+  EXPECT_EQ(last.ground.floor, -0.02);
+  EXPECT_EQ(last.ground.regions[0].talus_angle, 40.0);
+
+  // A key of a box is left out where the stone is a sphere.
+  const SweepPlan shapes = load(std::string(begin_plan) +
+                                "[axes]\nstone.2.shape = ['box', 'sphere']\n"
+                                "stone.2.size = [[0.1, 0.1, 0.02], [0.1, 0.1, 0.04]]\n");
+  EXPECT_EQ(shapes.scene_of(1).ground.stones[1].size.z(), 0.04);
+  EXPECT_EQ(shapes.scene_of(3).ground.stones[1].shape, StoneShape::sphere);
+  EXPECT_NE(refusal(std::string(begin_plan) + "[axes]\nstone.3.radius = [0.02, 0.03]\n")
+                .find("axes.stone.3.radius cannot be 0.02: " + (folder / "scenes/scene.toml").string() +
+                      " has 2 [[stone]] tables, counted "
+                      "from 1, and no stone.3"),
+            std::string::npos)
+      << refusal(std::string(begin_plan) + "[axes]\nstone.3.radius = [0.02, 0.03]\n");
+  EXPECT_NE(refusal(std::string(begin_plan) + "[axes]\nstone.1.radius = [0.02, -0.03]\n")
+                .find("axes.stone.1.radius cannot be -0.03: stone.1.radius is -0.03; give a number above 0"),
+            std::string::npos);
+}
+
 TEST_F(APlan, MayHaveAsManyPointsAsMaxPointsSays) {
   EXPECT_EQ(
       load(std::string(begin_plan) + "max_points = 4\n[axes]\nforce.k_s = [1, 2, 3, 4]\n").design.points(),
