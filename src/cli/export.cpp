@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -87,10 +88,25 @@ void check_room(const fs::path& output, double bytes) {
   check_disk(output, bytes, "choose another place or free disk space");
 }
 
+/// The floor under the sand, as maps have it: not-a-number where there is none.
+HeightGrid floor_of(const RunFile& run, const ExportArguments& arguments) {
+  const std::shared_ptr<const Ground> ground = run.ground();
+  if (!ground)
+    throw_input_error("{}: has no floor under its sand; export final, initial or a frame", run.name());
+  const HeightGrid floor = ground->floor.grid();
+  const auto gaps = (!floor.isFinite()).count();
+  if (gaps > 0 && !format_of(arguments.output).grid)
+    throw_input_error(
+        "{}: {} of {} cells have no floor, which only .npy and .asc can say; export one of them", run.name(),
+        gaps, floor.size());
+  return floor.isFinite().select(floor, std::numeric_limits<double>::quiet_NaN());
+}
+
 HeightGrid surface_of(const RunFile& run, const ExportArguments& arguments) {
-  HeightGrid heights =
-      surface_named(run, arguments.frame.empty() ? "final" : arguments.frame, "final, initial or a number")
-          .surface.grid();
+  if (arguments.frame == "floor") return floor_of(run, arguments);
+  HeightGrid heights = surface_named(run, arguments.frame.empty() ? "final" : arguments.frame,
+                                     "final, initial, floor or a number")
+                           .surface.grid();
   if (!heights.isFinite().all())
     throw_input_error("{}: holds heights that are not finite numbers; run the scene again", run.name());
   return heights;
@@ -200,9 +216,11 @@ void add_export_command(CLI::App& app, Command& chosen) {
       ->type_name("FILE" + endings)
       ->required();
   command
-      ->add_option("--frame", arguments->frame,
-                   "Which surface: final, initial, or a frame's number from 0. Default: final")
-      ->type_name("{final,initial}|K");
+      ->add_option(
+          "--frame", arguments->frame,
+          "Which surface: final, initial, the floor under the sand, or a frame's number from 0. Default: "
+          "final")
+      ->type_name("{final,initial,floor}|K");
   CLI::Option* base = command
                           ->add_option("--base", arguments->base,
                                        fmt::format("Thickness of the floor below the lowest sand [mm]. "

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <memory>
@@ -42,6 +43,28 @@ nlohmann::ordered_json range_of(const HeightField& bed) {
   return {{"lowest", lowest}, {"highest", highest}};
 }
 
+/// The lowest and the highest floor of a bed, and how many cells have one.
+nlohmann::ordered_json floor_facts(const HeightField& floor) {
+  double lowest = std::numeric_limits<double>::infinity();
+  std::int64_t count = 0;
+  const auto take = [&](double height, std::int64_t cells) {
+    if (!std::isfinite(height)) return;
+    lowest = std::min(lowest, height);
+    count += cells;
+  };
+  for (int tile = 0; tile < floor.tile_count(); ++tile) {
+    const CellRange cells = floor.tile_cells(tile);
+    if (const int slot = floor.slot_of(tile); slot < 0) {
+      take(floor.untouched().highest(), std::int64_t{cells.rows()} * cells.cols());
+    } else {
+      for (int row = 0; row < cells.rows(); ++row)
+        for (int col = 0; col < cells.cols(); ++col)
+          take(floor.tile_heights(slot)[row * HeightField::tile_side + col], 1);
+    }
+  }
+  return {{"lowest", lowest}, {"highest", floor.highest()}, {"cells", count}};
+}
+
 nlohmann::ordered_json describe(const RunFile& run) {
   nlohmann::ordered_json facts;
   facts["file"] = run.name();
@@ -49,6 +72,7 @@ nlohmann::ordered_json describe(const RunFile& run) {
   const HeightField initial = run.initial_bed();
   facts["cells"] = {initial.cols(), initial.rows()};
   facts["cell_size"] = run.cell_size();
+  if (const std::shared_ptr<const Ground> ground = run.ground()) facts["floor"] = floor_facts(ground->floor);
   facts["initial"] = range_of(initial);
   if (run.has_final()) {
     const HeightField final = run.final_bed();

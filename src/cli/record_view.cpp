@@ -7,8 +7,13 @@ namespace {
 
 ViewHello hello_of(const std::string& title, const Scene& scene, const HeightField& start, double max_force,
                    const PointerDevice* pointer) {
-  return {title,      start,     height_range(start),
-          scene.tool, max_force, pointer ? std::optional(pointer->scale()) : std::nullopt};
+  return {title,
+          start,
+          height_range(start),
+          scene.tool,
+          max_force,
+          pointer ? std::optional(pointer->scale()) : std::nullopt,
+          level_bottom(start)};
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ RunView::RunView(Simulation& simulation, const std::string& title, bool opens)
       bed_(simulation.bed()),
       server_({bed_, shown_,
                ViewHello{title, simulation.bed(), height_range(simulation.bed()), simulation.scene().tool,
-                         simulation.scene().device.max_force, std::nullopt},
+                         simulation.scene().device.max_force, std::nullopt, level_bottom(simulation.bed())},
                live_page(title)}),
       opener_(announce_view(server_, opens)),
       playing_(simulation.stroke_seconds() > 0.0) {

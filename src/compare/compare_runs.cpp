@@ -63,6 +63,7 @@ Comparison compare_runs(const RunFile& golden, const RunFile& run, const Toleran
   add_checks(checks, "golden complete", [&] { return std::vector{complete_check("golden", golden)}; });
   add_checks(checks, "run complete", [&] { return std::vector{complete_check("run", run)}; });
   add_checks(checks, "cell size", [&] { return std::vector{cells_check(golden, run, coarsen)}; });
+  add_checks(checks, "floor", [&] { return floor_checks(golden, run, tolerances.height); });
   add_checks(checks, "initial height", [&] {
     const RunPair pair = run_pair(golden, run, coarsen);
     return std::vector{

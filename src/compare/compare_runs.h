@@ -29,8 +29,8 @@ struct RunPair {
 /// file does not say its cells.
 RunPair run_pair(const RunFile& golden, const RunFile& run, bool coarsen);
 
-/// Compares two run files: complete, the same bed (with coarsen, see run_pair()), initial and final surface,
-/// and the trace where there is one (in both, or in neither). The comparison has the run's name.
+/// Compares two run files: complete, the same bed (with coarsen, see run_pair()) and floor, initial and final
+/// surface, and the trace where there is one (in both, or in neither). The comparison has the run's name.
 Comparison compare_runs(const RunFile& golden, const RunFile& run, const Tolerances& tolerances,
                         bool coarsen = false);
 

@@ -80,6 +80,31 @@ Check height_check(const std::string& name, const HeightField& golden, const Hei
                                  where, difference.rms, difference.volume));
 }
 
+std::vector<Check> floor_checks(const RunFile& golden, const RunFile& run, double limit) {
+  const std::shared_ptr<const Ground> one = golden.ground(), other = run.ground();
+  if (!one && !other) return {};
+  if (!one || !other)
+    return {
+        failed_check("floor", fmt::format("{} has stones or another floor under its sand, but the other one "
+                                          "has none; compare runs of the same bed",
+                                          one ? "golden" : "the run"))};
+  if (!one->floor.same_grid(other->floor))
+    return {failed_check("floor", "is not compared, because the cells differ")};
+  double most = 0.0;
+  std::int64_t in_one = 0;
+  visit_cells_of_both(one->floor, other->floor, [&](int, int, double a, double b) {
+    if (std::isfinite(a) != std::isfinite(b))
+      ++in_one;
+    else if (a != b)
+      most = std::max(most, std::abs(a - b));
+  });
+  if (in_one > 0)
+    return {failed_check("floor", fmt::format("is under the sand in one of the runs only in {} of {} cells",
+                                              in_one, std::int64_t{one->floor.rows()} * one->floor.cols()))};
+  return {limit_check("floor", most, limit, "m",
+                      most == 0.0 ? "the same in every cell" : fmt::format("differs by {:.6g} m", most))};
+}
+
 Check cell_size_check(double golden, double run) {
   return limit_check("cell size", std::abs(run - golden), cell_size_tolerance * golden, "m",
                      fmt::format("golden has cells of {} m, the run of {} m", golden, run));

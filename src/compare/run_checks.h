@@ -25,6 +25,10 @@ Check frames_check(const RunFile& golden, const RunFile& run);
 /// Compares two surfaces of one bed, cell by cell. Beds of other cells fail.
 Check height_check(const std::string& name, const HeightField& golden, const HeightField& run, double limit);
 
+/// Compares the floors under the sand of two runs; no check where neither has one. Cells that have a floor in
+/// one run only fail, as do floors that are further apart than limit [m], or of other cells.
+std::vector<Check> floor_checks(const RunFile& golden, const RunFile& run, double limit);
+
 /// Compares cell sizes [m]: they are the same up to rounding.
 Check cell_size_check(double golden, double run);
 

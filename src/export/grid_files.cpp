@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <bit>
+#include <cmath>
 #include <iterator>
 #include <string>
 
@@ -31,13 +32,15 @@ bool write_npy(std::ostream& file, const HeightGrid& heights, double) {
 }
 
 bool write_esri_grid(std::ostream& file, const HeightGrid& heights, double cell_size) {
+  constexpr int no_data = -9999;
   const auto out = std::ostreambuf_iterator<char>(file);
-  fmt::format_to(out, "ncols {}\nnrows {}\nxllcorner {}\nyllcorner {}\ncellsize {}\nNODATA_value -9999\n",
+  fmt::format_to(out, "ncols {}\nnrows {}\nxllcorner {}\nyllcorner {}\ncellsize {}\nNODATA_value {}\n",
                  heights.cols(), heights.rows(), -0.5 * cell_size * static_cast<double>(heights.cols()),
-                 -0.5 * cell_size * static_cast<double>(heights.rows()), cell_size);
+                 -0.5 * cell_size * static_cast<double>(heights.rows()), cell_size, no_data);
   for (Eigen::Index row = heights.rows() - 1; row >= 0 && !interrupted(); --row)
     for (Eigen::Index col = 0; col < heights.cols(); ++col)
-      fmt::format_to(out, "{}{}", heights(row, col), col + 1 < heights.cols() ? ' ' : '\n');
+      fmt::format_to(out, "{}{}", std::isnan(heights(row, col)) ? no_data : heights(row, col),
+                     col + 1 < heights.cols() ? ' ' : '\n');
   return !interrupted();
 }
 

@@ -12,7 +12,8 @@ namespace sandstroke {
 struct GridFormat {
   OutputKind kind;
   double (*bytes)(double cells);  ///< about how large a file becomes
-  /// Writes a whole file from heights [m] and a cell size [m]. False: interrupted().
+  /// Writes a whole file from heights [m], not-a-number where there are none, and a cell size [m]. False:
+  /// interrupted().
   bool (*write)(std::ostream&, const HeightGrid&, double);
 };
 

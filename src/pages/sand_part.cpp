@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "core/error.h"
 #include "report/data_uri.h"
 #include "sand/cell_means.h"
+#include "sand/ground.h"
 
 namespace sandstroke {
 namespace {
@@ -23,6 +26,12 @@ std::string packed(const std::string& bytes) {
     throw_io_error("zlib could not compress a surface; there may be too little memory");
   small.resize(size);
   return base64(small);
+}
+
+/// Adds a whole number of 32 bits.
+void put_whole(std::string& bytes, std::int32_t number) {
+  for (const int shift : {0, 8, 16, 24})
+    bytes += static_cast<char>(static_cast<std::uint32_t>(number) >> shift & 255u);
 }
 
 int shown_side(int cells, int side) {
@@ -45,6 +54,22 @@ SandPart::SandPart(const std::string& title, const std::string& text, const Heig
            {"rows", rows_},       {"cols", cols_},       {"cell_size", cell_size},
            {"x0", shown.x_of(0)}, {"y0", shown.y_of(0)}, {"quantum", quantum_},
            {"low", HUGE_VAL},     {"high", -HUGE_VAL},   {"surfaces", nlohmann::ordered_json::array()}};
+  if (has_floor(bed)) add_floor(*bed.ground());
+}
+
+void SandPart::add_floor(const Ground& ground) {
+  constexpr auto none = std::numeric_limits<std::int32_t>::min();
+  const CellMeans heights(ground.floor, rows_, cols_);
+  std::string bytes;
+  for (Eigen::Index row = 0; row < rows_; ++row)
+    for (Eigen::Index col = 0; col < cols_; ++col) {
+      const double quanta = std::round(heights(row, col) / quantum_);
+      put_whole(bytes, std::abs(quanta) < 1e9 ? static_cast<std::int32_t>(quanta) : none);
+    }
+  part_["floor"] = packed(bytes);
+  // The page compares heights in single precision.
+  if (std::isfinite(ground.level()))
+    part_["bottom"] = std::round(ground.level() / quantum_) * quantum_ + 0.5 * quantum_;
 }
 
 void SandPart::add(const std::string& name, const HeightField& surface) {
@@ -59,9 +84,8 @@ void SandPart::add(const std::string& name, const HeightField& surface) {
                           col);
       low = std::min(low, height);
       high = std::max(high, height);
-      const auto change = static_cast<std::uint32_t>(static_cast<std::int32_t>(quanta) - before_(row, col));
+      put_whole(bytes, static_cast<std::int32_t>(quanta) - before_(row, col));
       before_(row, col) = static_cast<std::int32_t>(quanta);
-      for (const int shift : {0, 8, 16, 24}) bytes += static_cast<char>(change >> shift & 255u);
     }
   part_["low"] = low;
   part_["high"] = high;

@@ -9,7 +9,7 @@ namespace sandstroke {
 
 /// A part of a page that shows surfaces of one bed in 3-D, one after the other. Where a side has more than
 /// most_side cells, the page has larger cells with mean heights. Heights are rounded to a thousandth of the
-/// page's cell size.
+/// page's cell size. Where the floor of the bed is bare, it is shown.
 class SandPart {
  public:
   static constexpr int most_side = 512;      ///< cells, in the page
@@ -24,6 +24,8 @@ class SandPart {
   nlohmann::ordered_json json() const { return part_; }
 
  private:
+  void add_floor(const Ground& ground);
+
   int rows_, cols_;
   double quantum_;                                                                      // m
   Eigen::Array<std::int32_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> before_;  // in quanta

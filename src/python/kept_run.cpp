@@ -10,6 +10,7 @@
 #include "python/interpreter_lock.h"
 #include "run/run_summary.h"
 #include "run/run_warnings.h"
+#include "sand/ground.h"
 
 namespace sandstroke {
 namespace {
@@ -18,6 +19,12 @@ namespace py = pybind11;
 
 void append(std::vector<double>& heights, const HeightGrid& grid) {
   heights.insert(heights.end(), grid.data(), grid.data() + grid.size());
+}
+
+/// The floor under a bed's sand as Python has it.
+HeightGrid floor_grid(const Ground& ground) {
+  const HeightGrid floor = ground.floor.grid();
+  return floor.isFinite().select(floor, std::numeric_limits<double>::quiet_NaN());
 }
 
 class Keeper : public SimulationObserver {
@@ -109,6 +116,7 @@ std::shared_ptr<KeptRun> kept_run(const SceneHere& scene, std::optional<Stroke> 
     run->scene.scene = {simulation.scene(), scene.scene.view};
     run->bed = simulation.bed();
     run->initial = simulation.bed().grid();
+    if (has_floor(simulation.bed())) run->floor = floor_grid(*simulation.bed().ground());
     run->content = simulation.trace_content();
     return keeper;
   };
@@ -138,6 +146,7 @@ std::shared_ptr<KeptRun> read_run(const std::filesystem::path& path) {
   run->bed = BedGeometry(file.rows(), file.cols(), file.cell_size());
   run->initial = file.initial();
   run->final = file.final();
+  if (const std::shared_ptr<const Ground> ground = file.ground()) run->floor = floor_grid(*ground);
   if (file.has_trace()) {
     run->content = file.trace_content();
     run->trace = file.trace();

@@ -24,6 +24,7 @@ struct KeptRun {
   nlohmann::ordered_json summary;  ///< as `run --json`; of a file: what it tells
   BedGeometry bed{1, 1, 1.0};
   HeightGrid initial, final;  ///< m
+  HeightGrid floor;           ///< m, not-a-number where there is none; empty: none at all
   TraceContent content;
   std::vector<TickRecord> trace;
   std::vector<RelaxationRecord> relaxations;

@@ -4,6 +4,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "compare/compare_runs.h"
 #include "core/error.h"
@@ -20,6 +21,7 @@
 #include "python/module_parts.h"
 #include "python/plugin_laws.h"
 #include "render/height_field_renderer.h"
+#include "sand/ground.h"
 #include "tool/tool_surface.h"
 
 // The extension module on which src/python/sandstroke builds its functions. Names with a _ are not for users.
@@ -90,13 +92,27 @@ SceneHere scene_of_text(const std::string& text, const std::filesystem::path& fo
   return here;
 }
 
-/// Draws an array (height, width, 3) of 8 bits. Without tip it draws no tool.
+/// A ground for pictures. floor [m]: not-a-number where there is none.
+std::shared_ptr<const Ground> ground_of(const HeightGrid& floor, const BedGeometry& bed) {
+  if (floor.rows() != bed.rows() || floor.cols() != bed.cols())
+    throw_input_error("floor: must have as many rows and columns as heights");
+  constexpr double no_slope = 0.0, none = -std::numeric_limits<double>::infinity();
+  auto ground = std::make_shared<Ground>(bed, floor.isFinite().all() ? floor.minCoeff() : none, no_slope);
+  for (int row = 0; row < bed.rows(); ++row)
+    for (int col = 0; col < bed.cols(); ++col)
+      if (floor(row, col) > ground->level()) ground->floor.set(row, col, floor(row, col));
+  return ground;
+}
+
+/// Draws an array (height, width, 3) of 8 bits. Without tip it draws no tool; floor: None, or as Run.floor.
 py::array picture(const SceneHere& here, const py::object& heights, const py::object& start,
-                  const std::optional<std::array<double, 3>>& tip, const std::array<double, 4>& orientation) {
+                  const std::optional<std::array<double, 3>>& tip, const std::array<double, 4>& orientation,
+                  const py::object& floor) {
   const SceneFile& scene = here.scene;
   const HeightGrid shown = grid_of("heights", heights), before = grid_of("start", start);
   if (before.rows() != shown.rows() || before.cols() != shown.cols())
     throw_input_error("start: must have as many rows and columns as heights");
+  const HeightGrid lowest = floor.is_none() ? HeightGrid() : grid_with_gaps("floor", floor);
   Image image;
   {
     const WithoutLock let_go;
@@ -119,7 +135,9 @@ py::array picture(const SceneHere& here, const py::object& heights, const py::ob
       }
     }
     HeightFieldRenderer renderer(static_cast<int>(shown.rows()), static_cast<int>(shown.cols()), cell_size);
-    image = renderer.render(HeightField(shown, cell_size, scene.bed.shape), subject);
+    HeightField surface(shown, cell_size, scene.bed.shape);
+    if (lowest.size() > 0) surface.lie_on(ground_of(lowest, surface));
+    image = renderer.render(surface, subject);
   }
   py::array_t<std::uint8_t> array({image.height, image.width, 3});
   std::copy(image.rgb.begin(), image.rgb.end(), array.mutable_data());
@@ -160,6 +178,12 @@ void add_run(py::module_& module) {
           "initial", [](const py::object& self) { return grid_view(self.cast<Run>()->initial, self); })
       .def_property_readonly("final",
                              [](const py::object& self) { return grid_view(self.cast<Run>()->final, self); })
+      .def_property_readonly("floor",
+                             [](const py::object& self) {
+                               const Run run = self.cast<Run>();
+                               return run->floor.size() == 0 ? py::object(py::none())
+                                                             : py::object(grid_view(run->floor, self));
+                             })
       .def_property_readonly("frame_times",
                              [](const py::object& self) {
                                const KeptRun& run = *self.cast<Run>();

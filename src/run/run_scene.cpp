@@ -154,9 +154,10 @@ bool is_complete(const std::filesystem::path& output, const std::string& scene,
       return false;
   const std::shared_ptr<const TriangleMesh> mesh = run.scene().tool.mesh, ours = simulation.scene().tool.mesh;
   if (static_cast<bool>(mesh) != static_cast<bool>(ours) || (mesh && *mesh != *ours)) return false;
-  bool same = true;
-  visit_cells_of_both(run.initial_bed(), simulation.bed(),
-                      [&](int, int, double one, double other) { same = same && one == other; });
+  bool same = has_floor(simulation.bed()) == (run.ground() != nullptr);
+  const auto look = [&](int, int, double one, double other) { same = same && one == other; };
+  visit_cells_of_both(run.initial_bed(), simulation.bed(), look);
+  if (same && run.ground()) visit_cells_of_both(run.ground()->floor, simulation.bed().ground()->floor, look);
   return same && (!options.second || run.error_estimate()) && (!options.error_map || run.error_map());
 }
 

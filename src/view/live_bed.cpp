@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "core/error.h"
+#include "sand/ground.h"
 
 namespace sandstroke {
 namespace {
@@ -30,6 +32,11 @@ LiveBed::LiveBed(const HeightField& bed) : BedGeometry(bed), untouched_(bed.unto
   published_.resize(tiles, HeightField::new_tile_revision);
   versions_.resize(tiles, 1);
   heights_.resize(tiles);
+  if (has_floor(bed)) {
+    ground_ = bed.shared_ground();
+    for (int tile = 0; tile < tile_count(); ++tile)
+      versions_.push_back(std::isfinite(ground_->level()) || ground_->floor.slot_of(tile) >= 0);
+  }
   publish(bed);
 }
 
@@ -52,26 +59,38 @@ void LiveBed::copy_tile(int tile, float* out) {
   copy_inside(rule.data(), tile_cells(tile), out);
 }
 
+void LiveBed::copy_floor(int tile, float* out) const {
+  std::array<double, tile_area> floor;
+  ground_->floor.read_tile(tile, floor.data());
+  for (double& height : floor)
+    if (!std::isfinite(height)) height = no_floor;
+  copy_inside(floor.data(), tile_cells(tile), out);
+}
+
 void LiveBed::take_newer(Reader& reader, Tiles& tiles) {
   tiles.index.clear();
   tiles.heights.clear();
-  reader.versions.resize(static_cast<std::size_t>(tile_count()), 0);
+  const auto all = static_cast<int>(versions_.size());
+  reader.versions.resize(versions_.size(), 0);
   const int first = reader.next;
-  for (int step = 0; step < tile_count() && tiles.index.size() < most_tiles; ++step) {
-    const int tile = (first + step) % tile_count();
+  for (int step = 0; step < all && tiles.index.size() < most_tiles; ++step) {
+    const int tile = (first + step) % all;
     std::unique_lock lock(mutex_);
     if (reader.versions[tile] == versions_[tile]) continue;
     reader.versions[tile] = versions_[tile];
     const std::size_t begin = tiles.heights.size();
     tiles.index.push_back(tile);
     tiles.heights.resize(begin + tile_area);
-    if (heights_[tile]) {
+    if (tile >= tile_count()) {
+      lock.unlock();
+      copy_floor(tile - tile_count(), &tiles.heights[begin]);
+    } else if (heights_[tile]) {
       std::copy_n(heights_[tile].get(), tile_area, &tiles.heights[begin]);
     } else {
       lock.unlock();
       copy_tile(tile, &tiles.heights[begin]);
     }
-    reader.next = (tile + 1) % tile_count();
+    reader.next = (tile + 1) % all;
   }
 }
 
@@ -88,6 +107,11 @@ HeightRange height_range(const HeightField& bed) {
     }
   }
   return range;
+}
+
+std::optional<double> level_bottom(const HeightField& bed) {
+  if (!bed.ground() || !std::isfinite(bed.ground()->level())) return std::nullopt;
+  return bed.ground()->level();
 }
 
 }  // namespace sandstroke

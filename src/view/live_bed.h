@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "sand/height_field.h"
@@ -17,13 +18,16 @@ class LiveBed : public BedGeometry {
   /// The most tiles that a reader gets at once.
   static constexpr std::size_t most_tiles = 64;
 
+  static constexpr float no_floor = -1e30f;  ///< m
+
   /// The state of a reader: its versions by tile, and the tile where it looks next, so that none waits for
   /// ever.
   struct Reader {
     std::vector<std::uint64_t> versions;
     int next = 0;
   };
-  /// Some tiles: tile_area heights of each, row-major; those outside the bed are 0.
+  /// Some tiles: tile_area heights of each, row-major; those outside the bed are 0. Tile tile_count() + i is
+  /// the floor under tile i, with no_floor where there is none. A reader gets it once.
   struct Tiles {
     std::vector<int> index;
     std::vector<float> heights;
@@ -41,11 +45,13 @@ class LiveBed : public BedGeometry {
 
  private:
   void copy_tile(int tile, float* out);
+  void copy_floor(int tile, float* out) const;
 
   HeightField untouched_;                          // heights of tiles that nothing has touched
+  std::shared_ptr<const Ground> ground_;           // null: there is no floor
   std::vector<std::uint64_t> published_;           // revisions, by tile; only the publisher uses it
   std::mutex mutex_;                               // guards what follows
-  std::vector<std::uint64_t> versions_;            // by tile, from 1
+  std::vector<std::uint64_t> versions_;            // by tile, from 1; of a floor 1, or 0 if there is none
   std::vector<std::unique_ptr<float[]>> heights_;  // by tile; none: untouched
 };
 
@@ -54,5 +60,8 @@ struct HeightRange {
   double low = 0.0, high = 0.0;
 };
 HeightRange height_range(const HeightField& bed);
+
+/// The height of a bed's bottom [m], if it lies on one.
+std::optional<double> level_bottom(const HeightField& bed);
 
 }  // namespace sandstroke

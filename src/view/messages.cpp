@@ -68,6 +68,7 @@ std::string hello_message(const ViewHello& hello) {
                              {"y0", hello.bed.y_of(0)},
                              {"low", hello.heights.low},
                              {"high", hello.heights.high},
+                             {"bottom", hello.bottom ? ordered_json(*hello.bottom) : ordered_json()},
                              {"tool", tool_json(hello.tool)},
                              {"max_force", hello.max_force},
                              {"pointer", pointer}};

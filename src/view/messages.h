@@ -30,6 +30,7 @@ struct ViewHello {
   ToolSettings tool;
   double max_force = 0.0;               ///< N
   std::optional<PointerScale> pointer;  ///< none: pages only watch
+  std::optional<double> bottom = {};    ///< m, of a level floor under the sand
 };
 
 /// One place of a pointer.

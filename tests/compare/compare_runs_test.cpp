@@ -345,5 +345,30 @@ TEST_F(CompareRuns, SaysHowFarApartTheyAreInEachQuantity) {
       << found("final height").sentence;  // 0.25 m / sqrt(1200); 0.25 m x (10 mm)^2
 }
 
+TEST_F(CompareRuns, FloorsAreComparedWhereThereIsOne) {
+  const auto names = [](const Comparison& comparison) {
+    std::vector<std::string> all;
+    for (const Check& check : comparison.checks) all.push_back(check.name);
+    return all;
+  };
+  const std::vector<std::string> without = names(compare());
+  EXPECT_EQ(std::count(without.begin(), without.end(), "floor"), 0);
+  HeightGrid floor = HeightGrid::Constant(30, 40, std::numeric_limits<double>::quiet_NaN());
+  floor.block(3, 3, 4, 4) = -0.125;
+  run.floor = floor;
+  expect_only_failure("floor",
+                      "the run has stones or another floor under its sand, but the other one has none");
+  std::swap(golden, run);
+  expect_only_failure("floor", "golden has stones");
+  run.floor = floor;
+  EXPECT_TRUE(compare().passed());
+  run.floor(4, 5) += 0.9e-6;
+  EXPECT_TRUE(compare().passed());
+  run.floor(4, 5) = -0.124;
+  expect_only_failure("floor", "differs by 0.001 m");
+  run.floor(4, 5) = std::numeric_limits<double>::quiet_NaN();
+  expect_only_failure("floor", "is under the sand in one of the runs only in 1 of 1200 cells");
+}
+
 }  // namespace
 }  // namespace sandstroke

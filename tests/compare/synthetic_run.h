@@ -21,6 +21,7 @@ struct SyntheticRun {
   bool complete = true, has_final = true, has_trace = true;
   std::string scene_hash = "0123456789abcdef", stroke_hash = "fedcba9876543210";
   HeightGrid initial = HeightGrid::Zero(30, 40), final;
+  HeightGrid floor;  // empty: none
   std::vector<TickRecord> trace;
   std::string missing_column;                             // of the trace
   std::string scene = "[device]\nservo_rate = 1000.0\n";  // /scene, if it is to have one
@@ -52,6 +53,7 @@ struct SyntheticRun {
     file.attribute("/surface", "cell_size", cell_size);
     file.write("/surface/initial", initial);
     if (has_final) file.write("/surface/final", final);
+    if (floor.size() > 0) file.write("/surface/floor", floor);
     if (!scene.empty()) file.write("/scene", scene);
     file.write("/provenance/scene_hash", scene_hash);
     file.write("/provenance/stroke_hash", stroke_hash);

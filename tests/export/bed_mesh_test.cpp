@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
+
+#include "bed_on_stones.h"
 
 namespace sandstroke {
 namespace {
@@ -118,6 +122,21 @@ TEST(BedMesh, CountsTheLargestBed) {
   EXPECT_EQ(surface.vertices, 65538ull * 65538);
   EXPECT_EQ(surface.triangles, 2ull * 65537 * 65537);
   EXPECT_EQ(body.triangles - surface.triangles, 3ull * 4 * 65537);
+}
+
+TEST(BedMesh, ItsSurfaceIsThatOfSandAndBareStones) {
+  const HeightField bed = sand_with_a_stone(60, 80, 0.002, 0.03, -0.01);
+  const HeightGrid heights = bed.grid();
+  const BedMesh mesh(heights, bed.cell_size(), std::nullopt);
+  double most = 0.0;
+  for (std::uint64_t i = 0; i < mesh.size().vertices; ++i) {
+    const Eigen::Vector3d at = mesh.vertex(i);
+    const double x = at.x(), y = at.y(), square = 0.03 * 0.03 - x * x - y * y;
+    const double sphere = square > 0.0 ? std::max(0.0, -0.01 + std::sqrt(square)) : 0.0;
+    EXPECT_NEAR(at.z(), sphere, 1e-12);
+    most = std::max(most, at.z());
+  }
+  EXPECT_GT(most, 0.0199);
 }
 
 }  // namespace

@@ -1,9 +1,13 @@
 #include "pages/sand_part.h"
 
 #include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "bed_on_stones.h"
 #include "browser.h"
 #include "core/asset.h"
 #include "core/error.h"
@@ -55,6 +59,37 @@ TEST(SandPart, TakesMeansOfAsFewCellsAsItMay) {
   EXPECT_DOUBLE_EQ(json["cell_size"], 0.003);
 }
 
+class SandPartInBrowser : public BrowserTest {};
+
+TEST_F(SandPartInBrowser, StonesAreGrayWhereTheyAreBareAndTheBottomIsOfWood) {
+  const HeightField bed = [] {
+    constexpr double bottom = -0.01;
+    HeightField made = sand_with_a_stone(80, 120, 0.002, 0.03, -0.01, bottom);
+    for (int row = 0; row < 80; ++row)
+      for (int col = 0; col < 30; ++col) made.set(row, col, bottom);
+    return made;
+  }();
+  SandPart part("Sand", "A stone.", bed);
+  part.add("one", bed);
+  EXPECT_FALSE(SandPart("Sand", "", HeightField(80, 120, 0.002)).json().contains("floor"));
+  browser().open_text(page_of(part.json()));
+  browser().wait_for("sandParts[0].ready");
+  browser().evaluate("sandParts[0].view.drawNow()");
+  // What the light of a cell is kept as: red, green, blue.
+  const auto colour = [&](int row, int col) {
+    return browser()
+        .evaluate(fmt::format("sandParts[0].view.picture.colourOf({}, {})", row, col))
+        .get<std::vector<int>>();
+  };
+  const std::vector<int> stone = colour(40, 60), sand = colour(10, 110), wood = colour(40, 10);
+  const auto [least, most] = std::minmax_element(stone.begin(), stone.begin() + 3);
+  EXPECT_LT(*most - *least, 25);
+  EXPECT_GT(sand[0] - sand[2], 45);
+  EXPECT_GT(wood[0] - wood[2], 30);
+  EXPECT_LT(wood[0], sand[0] - 40);
+  EXPECT_TRUE(browser().errors().empty()) << browser().errors().front();
+}
+
 TEST(SandPart, RefusesWhatCannotBeShown) {
   EXPECT_THROW(SandPart("Sand", "", HeightField(5000, 5000, 0.001)), Error);
   HeightField bed(4, 4, 0.001);
@@ -62,8 +97,6 @@ TEST(SandPart, RefusesWhatCannotBeShown) {
   bed.set(1, 2, std::nan(""));
   EXPECT_THROW(part.add("one", bed), Error);
 }
-
-class SandPartInBrowser : public BrowserTest {};
 
 TEST_F(SandPartInBrowser, ShowsEverySurfaceAndHeightsAlongALine) {
   SandPart part("Sand", "Three surfaces.", slope(40, 60, 0.0));

@@ -207,6 +207,31 @@ def test_frames(small, line):
     assert run.frames[-1].min() < -0.002
 
 
+def test_the_floor_under_the_sand(small, line, tmp_path):
+    h5py, xarray = needs("h5py"), needs("xarray")
+    path = tmp_path / "run.h5"
+    run = sandstroke.run(small, line, output=path)
+    assert run.floor is None and sandstroke.read(path).floor is None
+    floor = np.full(run.final.shape, np.nan)
+    floor[10:50, 20:60] = min(run.initial.min(), run.final.min())
+    with h5py.File(path, "r+") as file:
+        file["/surface/floor"] = floor
+    on_stone = sandstroke.read(path)
+    assert np.array_equal(on_stone.floor, floor, equal_nan=True) and not on_stone.floor.flags.writeable
+    assert np.array_equal(on_stone.final, run.final)
+    with xarray.open_dataset(path, group="surface", engine="h5netcdf", phony_dims="sort") as file:
+        assert np.array_equal(on_stone.to_xarray().floor, file.floor, equal_nan=True)
+    # A bare stone is gray, whoever names it.
+    view = {"name": "top", "size": (320, 180)}
+    bare = np.full(run.final.shape, np.nan)
+    bare[10:50, 20:60] = run.final[10:50, 20:60]
+    sand, stone = (sandstroke.render(run, floor=one, **view).astype(int) for one in (None, bare))
+    warmth = [(picture[..., 0] - picture[..., 2])[80:100, 130:190].mean() for picture in (sand, stone)]
+    assert warmth[0] > 45 and abs(warmth[1]) < 30
+    with pytest.raises(sandstroke.InputError, match="floor: must have as many rows"):
+        sandstroke.render(run, floor=bare[1:], **view)
+
+
 def test_xarray_is_what_it_makes_of_the_file(tmp_path):
     xarray = needs("xarray")
     needs("h5netcdf")

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <thread>
 
+#include "bed_on_stones.h"
 #include "core/error.h"
 
 namespace sandstroke {
@@ -59,6 +61,30 @@ TEST(LiveBed, GivesEveryTileOnceAndThenWhatChanged) {
   EXPECT_EQ(changed.begin()->first, 120);
   expect_is(changed.begin()->second, bed, 120);
   EXPECT_EQ(read_all(live, other).size(), 121u);  // each reader has its own
+}
+
+TEST(LiveBed, GivesTheFloorUnderTheSandOnceWhereThereIsOne) {
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  for (const double bottom : {none, -0.05}) {
+    HeightField bed =
+        sand_with_a_stone(200, 300, 0.002, 0.03, 0.0, bottom);  // the stone is in one of 4 x 5 tiles
+    LiveBed live(bed);
+    LiveBed::Reader reader;
+    auto all = read_all(live, reader);
+    EXPECT_EQ(all.size(), bottom == none ? 21u : 40u);
+    for (int tile = 0; tile < bed.tile_count(); ++tile) {
+      if (!all.count(20 + tile)) continue;
+      HeightField floor = bed.ground()->floor;
+      const CellRange cells = floor.tile_cells(tile);
+      for (int row = cells.row_begin; row < cells.row_end; ++row)
+        for (int col = cells.col_begin; col < cells.col_end; ++col)
+          if (floor(row, col) == none) floor.set(row, col, LiveBed::no_floor);
+      expect_is(all[20 + tile], floor, tile);
+    }
+    bed.set(100, 150, 0.5);
+    live.publish(bed);
+    EXPECT_EQ(read_all(live, reader).size(), 1u);
+  }
 }
 
 TEST(LiveBed, FollowsACopyOfItsBed) {

@@ -65,6 +65,9 @@ TEST(ViewMessages, WhatIsSaidIsJson) {
                   12.0,       PointerScale{1, 2, 3}};
   const nlohmann::json said = nlohmann::json::parse(hello_message(hello)).at("hello");
   EXPECT_EQ(said.at("title"), "h\uFFFD.h5");  // not UTF-8
+  EXPECT_TRUE(said.at("bottom").is_null());
+  hello.bottom = -0.25;
+  EXPECT_EQ(nlohmann::json::parse(hello_message(hello)).at("hello").at("bottom"), -0.25);
   EXPECT_EQ(said.at("x0"), -1.0);
   EXPECT_EQ(said.at("y0"), -0.5);
   EXPECT_EQ(said.at("tile_side"), 64);

@@ -2,13 +2,27 @@
 // A part of a page: surfaces in 3-D (sand_view.js), one after the other; heights along a line that is drawn on them;
 // and the difference of two surfaces, in colours.
 
+/** Packed whole numbers of 32 bits. */
+async function unpackSteps(data) {
+  const bytes = Uint8Array.from(atob(data), (character) => character.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new DataView(await new Response(stream).arrayBuffer());
+}
+
+/** The floor under the sand of a part [m], by cell; noFloor: there is none. */
+async function unpackFloor({ floor, rows, cols, quantum }) {
+  const steps = await unpackSteps(floor), none = -(2 ** 31);
+  return Float32Array.from({ length: rows * cols }, (_, i) => {
+    const step = steps.getInt32(4 * i, true);
+    return step === none ? noFloor : step * quantum;
+  });
+}
+
 /** The surfaces of a part, as heights [m]. Each was kept as whole steps from the one before. */
 async function unpackSurfaces({ surfaces, rows, cols, quantum }) {
   const steps = new Int32Array(rows * cols), all = [];
   for (const { data } of surfaces) {
-    const bytes = Uint8Array.from(atob(data), (character) => character.charCodeAt(0));
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-    const change = new DataView(await new Response(stream).arrayBuffer());
+    const change = await unpackSteps(data);
     for (let i = 0; i < steps.length; i += 1) steps[i] += change.getInt32(4 * i, true);
     all.push(Float32Array.from(steps, (step) => step * quantum));
   }
@@ -41,7 +55,7 @@ function profileChart(bed, line, shown) {
 
 function drawSand(part) {
   const { rows, cols, cell_size: cellSize, x0, y0, low, high, surfaces, difference } = part;
-  const bed = { rows, cols, cellSize, x0, y0, low, high };
+  const bed = { rows, cols, cellSize, x0, y0, low, high, bottom: part.bottom };
   const view = sandView(bed, part.title);
   if (!view)
     return [el("p", {}, "This browser has no WebGL 2 and cannot draw sand in 3-D. The pictures on this page show it.")];
@@ -99,8 +113,9 @@ function drawSand(part) {
     };
   } }, "Draw a line for a profile");
 
-  unpackSurfaces(part).then((heights) => {
+  Promise.all([unpackSurfaces(part), part.floor ? unpackFloor(part) : null]).then(([heights, floor]) => {
     state.heights = heights;
+    if (floor) view.picture.setFloor(floor);
     if (difference) {
       const values = heights[1].map((height, i) => height - heights[0][i]);
       const most = values.reduce((largest, value) => Math.max(largest, Math.abs(value)), 1e-9);

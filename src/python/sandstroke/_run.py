@@ -34,6 +34,11 @@ class Run:
         return self._kept.initial
 
     @property
+    def floor(self) -> np.ndarray | None:
+        """Floor under the sand [m], as final: stones, or the bottom of the bed. NaN where there is none; None without any."""
+        return self._kept.floor
+
+    @property
     def x(self) -> np.ndarray:
         """Centres of the columns [m]."""
         return self._kept.x
@@ -102,6 +107,9 @@ class Run:
                 "initial": (("y", "x"), self.initial, {"units": "m", "long_name": "height of the sand at the start"}),
                 "final": (("y", "x"), self.final, {"units": "m", "long_name": "height of the sand at the end"}),
             }
+            if self.floor is not None:
+                heights["floor"] = (("y", "x"), self.floor, {
+                    "units": "m", "long_name": "height of the floor under the sand; not-a-number: there is none"})
             if len(self.frame_times):
                 axes["time"] = ("time", self.frame_times, {"units": "s", "long_name": "time of a frame"})
                 heights["frames"] = (("time", "y", "x"), self.frames,

@@ -4,6 +4,7 @@
 // per pixel. Tiles that are small in the picture are drawn with fewer triangles.
 
 const tileSide = 64;
+const noFloor = -1e30;  // m, where nothing is under the sand
 const sunDirection = (() => {
   const [azimuth, elevation] = [145, 20].map((degrees) => (degrees * Math.PI) / 180);
   return [Math.cos(elevation) * Math.cos(azimuth), Math.cos(elevation) * Math.sin(azimuth), Math.sin(elevation)];
@@ -40,9 +41,11 @@ float noise(vec2 p) {
 
 // A cell's colour as sand in the sun; alpha: how much sun falls on it.
 const lightShader = `
-uniform sampler2D heights;
+uniform sampler2D heights, floors;
 uniform ivec2 cells;
 uniform float cell_size;
+uniform bool on_floor;   // stones or a bottom are under the sand
+uniform float bottom;    // the height of a level one
 out vec4 light;
 float height(ivec2 cell) { return texelFetch(heights, clamp(cell, ivec2(0), cells - 1), 0).r; }
 // Tangent of the highest elevation on the way from a cell. The steps grow.
@@ -78,6 +81,11 @@ void main() {
     sky += 0.125 * (1.0 - tangent / sqrt(1.0 + tangent * tangent));
   }
   vec3 albedo = sand_albedo(here) * (1.0 + grains(vec2(cell) * cell_size));
+  if (on_floor) {
+    float lowest = texelFetch(floors, cell, 0).r, sand = clamp((here - lowest) / (0.01 * cell_size), 0.0, 1.0);
+    vec3 bare = lowest <= bottom ? bare_wood : bare_stone * (1.0 + 1.2 * grains(vec2(cell.yx) * cell_size));
+    albedo = mix(bare, albedo, sand);
+  }
   light = vec4(tone(albedo * (sun_colour * sun + ambient(normal) * sky)), sun);
 }`;
 
@@ -188,8 +196,8 @@ function boxMesh({ low, high, floor, rim, wall }) {
 }
 
 /**
- * A bed {rows, cols, cellSize, x0, y0, low, high} [m] in a canvas. x0, y0: its first cell's centre. low, high: the
- * range of its heights. Null where there is no WebGL 2, or where it does not take so many cells.
+ * A bed {rows, cols, cellSize, x0, y0, low, high, bottom} [m] in a canvas. x0, y0: its first cell's centre. low, high: the
+ * range of its heights. bottom: the height of a level floor under the sand; null: none. Null where there is no WebGL 2, or where it does not take so many cells.
  */
 function sandPicture(canvas, bed) {
   // Where the processor draws, smooth edges would cost as much as everything else.
@@ -201,10 +209,11 @@ function sandPicture(canvas, bed) {
   const tileCols = Math.ceil(cols / tileSide), tileRows = Math.ceil(rows / tileSide);
   const heights = new Float32Array(rows * cols);
 
-  const [toHeights, toLight, toValues] = [0, 1, 2];
+  const [toHeights, toLight, toValues, toFloors] = [0, 1, 2, 3];
   glTexture(gl, toHeights, gl.R32F, cols, rows, gl.NEAREST);
   const lightTexture = glTexture(gl, toLight, gl.RGBA8, cols, rows, gl.LINEAR);
   let valuesTexture = glTexture(gl, toValues, gl.R32F, 1, 1, gl.NEAREST);
+  let floorsTexture = null;  // once there are some
   const lightTarget = gl.createFramebuffer();
   gl.bindFramebuffer(gl.FRAMEBUFFER, lightTarget);
   gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, lightTexture, 0);
@@ -273,8 +282,16 @@ function sandPicture(canvas, bed) {
     waiting.clear();
   };
 
+  /** Makes room for the floor under the sand, of which there is none yet. */
+  const beginFloors = () => {
+    floorsTexture = glTexture(gl, toFloors, gl.R32F, cols, rows, gl.NEAREST);
+    gl.pixelStorei(gl.UNPACK_ROW_LENGTH, 0);
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, cols, rows, gl.RED, gl.FLOAT, new Float32Array(rows * cols).fill(noFloor));
+  };
+
   const lightUp = () => {
-    lit({ heights: toHeights, cells, cell_size: cellSize, sun_direction: sunDirection });
+    lit({ heights: toHeights, cells, cell_size: cellSize, sun_direction: sunDirection, on_floor: floorsTexture !== null,
+          floors: floorsTexture ? toFloors : toHeights, bottom: bed.bottom ?? noFloor });
     gl.bindFramebuffer(gl.FRAMEBUFFER, lightTarget);
     gl.bindVertexArray(nothing);
     gl.disable(gl.DEPTH_TEST);
@@ -363,6 +380,23 @@ function sandPicture(canvas, bed) {
       gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, cols, rows, gl.RED, gl.FLOAT, values);
       stale = [[0, 0, cols, rows]];
     },
+    /** Sets a tile of the floor under the sand, by its index: 64 x 64 heights; noFloor: there is none. */
+    setFloorTile: (tile, values) => {
+      if (!floorsTexture) beginFloors();
+      gl.activeTexture(gl.TEXTURE0 + toFloors);
+      gl.pixelStorei(gl.UNPACK_ROW_LENGTH, tileSide);
+      const [col, row, width, height] = part(tile);
+      gl.texSubImage2D(gl.TEXTURE_2D, 0, col, row, width, height, gl.RED, gl.FLOAT, values);
+      stale.push([col, row, width, height]);
+    },
+    /** The same of all cells, row by row. */
+    setFloor: (values) => {
+      if (!floorsTexture) beginFloors();
+      gl.activeTexture(gl.TEXTURE0 + toFloors);
+      gl.pixelStorei(gl.UNPACK_ROW_LENGTH, 0);
+      gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, cols, rows, gl.RED, gl.FLOAT, values);
+      stale = [[0, 0, cols, rows]];
+    },
     /** Sets the tool: tip and radius in m, force as an arrow's length in m, and its turn; null: there is none. */
     setTool: (one) => { tool = one; },
     /** Sets the tool's shape, its tip at the origin [m]. Without it the tool is a sphere. */
@@ -379,6 +413,14 @@ function sandPicture(canvas, bed) {
       valuesTexture = glTexture(gl, toValues, gl.R32F, cols, rows, gl.NEAREST);
       gl.pixelStorei(gl.UNPACK_ROW_LENGTH, 0);
       gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, cols, rows, gl.RED, gl.FLOAT, one.values);
+    },
+    /** What a cell looks like in the sun: red, green and blue, and how much sun falls on it, to 255. */
+    colourOf: (row, col) => {
+      const pixel = new Uint8Array(4);
+      gl.bindFramebuffer(gl.FRAMEBUFFER, lightTarget);
+      gl.readPixels(col, row, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+      gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+      return [...pixel];
     },
     /** True while the last picture is being drawn: asking for another one then only takes longer. */
     isBusy: () => {
@@ -419,6 +461,6 @@ function sandPicture(canvas, bed) {
       }
       return null;
     },
-    bed, size, fast,
+    bed, size, fast, tileCount: tileRows * tileCols,
   };
 }

@@ -130,9 +130,9 @@ function drawLive(main) {
     live.hello = hello;
     title.textContent = hello.title;
     document.title = `${hello.title} – sand, live`;
-    const { rows, cols, cell_size: cellSize, x0, y0, low, high, pointer } = hello;
+    const { rows, cols, cell_size: cellSize, x0, y0, low, high, bottom, pointer } = hello;
     const span = Math.max(high - low, 0.01);
-    const view = sandView({ rows, cols, cellSize, x0, y0, low: low - span / 2, high: high + span / 2 }, "Live sand");
+    const view = sandView({ rows, cols, cellSize, x0, y0, low: low - span / 2, high: high + span / 2, bottom }, "Live sand");
     if (!view) {
       frame.prepend(el("p", { class: "warning" }, "This browser has no WebGL 2, so it shows numbers, but no sand."));
       return;
@@ -183,9 +183,12 @@ function drawLive(main) {
                  `${newtons.toFixed(2)} N`, `${head.rate.toFixed(0)} Hz`, `${(1e6 * head.lateness).toFixed(0)} µs`,
                  `${(1e6 * head.latest).toFixed(0)} µs`]);
     if (!view) return;
-    for (let i = 0, at = recordBytes.head; i < head.tiles; i += 1, at += recordBytes.tile)
-      view.picture.setTile(new DataView(bytes).getUint32(at, true),
-                           new Float32Array(bytes, at + 4, tileSide * tileSide));
+    for (let i = 0, at = recordBytes.head; i < head.tiles; i += 1, at += recordBytes.tile) {
+      const tile = new DataView(bytes).getUint32(at, true), values = new Float32Array(bytes, at + 4, tileSide * tileSide);
+      const { tileCount } = view.picture;
+      if (tile < tileCount) view.picture.setTile(tile, values);
+      else view.picture.setFloorTile(tile - tileCount, values);
+    }
     const { tool, max_force: most } = live.hello;
     const long = (0.25 * view.picture.size) / (most > 0 && most < 1e3 ? most : 10);
     const shown = flags & placed ? { tip: head.tip, turn: head.turn, radius: tool.radius, force: force.map((x) => x * long) } : null;
