@@ -166,7 +166,8 @@ void expect_equal_relaxations(RandomScene& scene) {
              reference = make_plain_relaxer(scene.relaxation, scene.dx);
   for (int round = 0; round < 4; ++round) {
     const RelaxationOutcome a = engine->relax(by_engine), b = reference->relax(by_reference);
-    ASSERT_TRUE(same_bits(by_engine.grid(), by_reference.grid())) << "round " << round << ", " << law_of(scene);
+    ASSERT_TRUE(same_bits(by_engine.grid(), by_reference.grid()))
+        << "round " << round << ", " << law_of(scene);
     ASSERT_EQ(a.passes, b.passes) << "round " << round;
     ASSERT_EQ(a.residual, b.residual) << "round " << round;
     ASSERT_EQ(a.converged, b.converged) << "round " << round;
