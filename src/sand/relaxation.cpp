@@ -34,12 +34,15 @@ std::int64_t tiles_to_relax(const HeightField& bed, const RelaxationSettings& se
   return tiles;
 }
 
-std::size_t bytes_per_relaxed_tile(const RelaxationSettings& settings) {
+std::size_t bytes_per_relaxed_tile(const RelaxationSettings& settings, bool on_floor) {
   // plain: the old heights and the new ones, and the rule's own two fields.
   if (settings.method == RelaxationMethod::plain)
     return HeightField::bytes_per_tile() + 4 * sizeof(double) * BedGeometry::tile_area;
-  const std::size_t relaxed = HeightField::bytes_per_tile() + ActiveSand::bytes_per_tile() +
-                              (takes_super_steps(settings.method) ? rkl_bytes_per_tile() : 0);
+  const bool super_steps = takes_super_steps(settings.method);
+  const std::size_t relaxed =
+      HeightField::bytes_per_tile() + ActiveSand::bytes_per_tile() +
+      (super_steps ? rkl_bytes_per_tile() : 0) +
+      (on_floor ? sizeof(GroundPatch) + (super_steps ? 4 * sizeof(PatchHeights) : 0) : 0);
   // multilevel: on each coarser bed a quarter of the tiles, each with its talus slopes, what they make of
   // |g|^2, and what changed.
   if (settings.method == RelaxationMethod::multilevel)

@@ -103,8 +103,9 @@ class Relaxer {
 /// The number of tiles that are allocated, or whose rule is steep enough to move. The first relaxation looks
 /// at them, and allocates those beside them. With `plain`: the number of all tiles.
 std::int64_t tiles_to_relax(const HeightField& bed, const RelaxationSettings& settings);
-/// Memory that relaxing takes for each of them [bytes], the bed's own included.
-std::size_t bytes_per_relaxed_tile(const RelaxationSettings& settings);
+/// Memory that relaxing takes for each of them [bytes], the bed's own included. on_floor: sand lies on a
+/// floor.
+std::size_t bytes_per_relaxed_tile(const RelaxationSettings& settings, bool on_floor);
 
 /// Makes the relaxer of one bed. It reads which cells are disturbed, and clears that
 /// (HeightField::clear_disturbed), so a bed can have only one at a time.

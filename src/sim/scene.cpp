@@ -239,7 +239,7 @@ double memory_of_bed(const Scene& scene) {
   const std::int64_t tiles = bed.surface.kind == SurfaceKind::file
                                  ? BedGeometry(bed.rows, bed.cols, bed.cell_size()).tile_count()
                                  : tiles_to_relax(starting_bed(bed), scene.relaxation);
-  double per_tile = static_cast<double>(bytes_per_relaxed_tile(scene.relaxation));
+  double per_tile = static_cast<double>(bytes_per_relaxed_tile(scene.relaxation, scene.ground.is_solid()));
   // A run keeps the start of it, to measure what a stroke left.
   if (bed.surface.kind == SurfaceKind::file && scene.stroke)
     per_tile += static_cast<double>(HeightField::bytes_per_tile());

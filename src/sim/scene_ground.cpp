@@ -210,7 +210,7 @@ double memory_of_ground(const Scene& scene) {
   const bool lifts_all = scene.ground.floor && *scene.ground.floor > lowest_sand(bed.surface);
   const double lifted = lifts_all ? geometry.tile_count() : tiles.floor;
   return static_cast<double>(HeightField::bytes_per_tile()) * (tiles.floor + tiles.slopes) +
-         static_cast<double>(bytes_per_relaxed_tile(scene.relaxation)) * lifted;
+         static_cast<double>(bytes_per_relaxed_tile(scene.relaxation, true)) * lifted;
 }
 
 HeightField on_ground(HeightField bed, const Scene& scene) {
