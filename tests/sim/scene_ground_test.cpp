@@ -58,12 +58,12 @@ TEST(CheckGround, WhatCannotBeSeenIsRefused) {
   Scene scene = small_garden();
   scene.ground.stones = {sphere(0.0, 0.0, 0.0, 0.1), sphere(0.61, 0.0, 0.0, 0.1)};
   EXPECT_EQ(complaint(scene), "a.toml: stone.2 lies outside the bed of 1 m by 1 m; move it, or remove it");
-  scene.ground.stones = {sphere(0.0, 0.0, -0.3, 0.1)};
+  scene.ground.stones = {sphere(0.0, 0.0, -0.5, 0.25)};
   EXPECT_EQ(complaint(scene), "none");  // a tool may get there
-  scene.ground.floor = -0.2;
+  scene.ground.floor = -0.25;
   EXPECT_EQ(
       complaint(scene),
-      "a.toml: stone.1 ends at z = -0.2 m, and bed.floor = -0.2 m is not below that; raise the stone, or "
+      "a.toml: stone.1 ends at z = -0.25 m, and bed.floor = -0.25 m is not below that; raise the stone, or "
       "remove it");
   scene.ground.stones = {sphere(0.0, 0.0, 0.0, 0.1), sphere(0.1, 0.0, 0.0, 0.1), sphere(0.0, 0.0, 0.0, 0.1)};
   EXPECT_EQ(complaint(scene), "a.toml: stone.3 is the same as stone.1; remove one of them");
@@ -132,6 +132,7 @@ TEST(CheckGround, AGroundMustFitTheMemory) {
   Scene wide = scene, large = scene, bare = scene;
   wide.ground.regions[0].size = {200.0, 200.0};
   large.ground.stones[0].radius = 100.0;
+  bare.ground.stones.clear();
   bare.ground.floor = 0.1;  // all sand would have to be lifted
   for (const Scene& one : {wide, large, bare})
     EXPECT_NE(complaint(one).find("of memory"), std::string::npos) << complaint(one);
