@@ -1,11 +1,6 @@
 #include "io/scene_keys.h"
 
 namespace sandstroke {
-namespace {
-
-constexpr const char* density_condition = "force.law is rft or archimedes, or where there is a [[source]]";
-
-}  // namespace
 
 std::vector<KeySection> scene_settings(const SceneFile& scene) {
   SceneFile copy = scene;  // a visitor could change it; this one does not
@@ -21,10 +16,10 @@ std::vector<KeySection> all_scene_keys() {
     scene.sources.emplace_back();
     describe_scene_file(visitor, scene);
   });
-  // No choice shows it alone, so that the keys themselves do not tell.
+  // With a source, which is there to be listed, it always applies.
   for (KeySection& section : sections)
     for (KeyRow& key : section.keys)
-      if (key.name == "force.density") key.condition = density_condition;
+      if (key.name == "force.density") key.condition = "force.law is rft or archimedes";
   return sections;
 }
 

@@ -1,12 +1,18 @@
 #include "sim/sand_sources.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "core/error.h"
 
 namespace sandstroke {
 namespace {
 
 constexpr double gravity_of_fall = 9.81;  // m/s^2
+/// Heights beyond so many lengths of the bed are mistakes, whose squares may be no numbers any more.
+constexpr double most_lengths = 1000.0;
 
 }  // namespace
 
@@ -69,6 +75,14 @@ const std::vector<CellUnder>& SandSources::cells_under(const HeightField& bed, S
 
 double SandSources::set(HeightField& bed, const CellUnder& cell, double before, double after) {
   if (after == before) return 0.0;
+  const double length = std::max(bed.rows(), bed.cols()) * bed.cell_size();
+  if (!(std::abs(after) <= most_lengths * length))
+    throw Error(
+        ErrorKind::unstable,
+        fmt::format(
+            "at x = {:.4g} m, y = {:.4g} m a [[source]] leaves sand at a height of {:.3g} m, but the bed "
+            "is only {:.3g} m long; change source.rate or source.stop",
+            bed.x_of(cell.col), bed.y_of(cell.row), after, length));
   bed.set(cell.row, cell.col, after);
   unsettled_ = true;
   return (after - before) * bed.cell_area() * density_;

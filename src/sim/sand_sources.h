@@ -77,7 +77,7 @@ class SandSources {
   void land(HeightField& bed, const Packet& packet);
   void take(HeightField& bed, Source& sink, const Eigen::Vector3d& mouth, double mass);
   const std::vector<CellUnder>& cells_under(const HeightField& bed, Source& source, double x, double y);
-  /// Sets a cell's height [m]; returns the sand that it gained [kg].
+  /// Sets a cell's height [m]; returns the sand that it gained [kg]. Error: unstable, if it is no height.
   double set(HeightField& bed, const CellUnder& cell, double before, double after);
 
   std::vector<Source> sources_;

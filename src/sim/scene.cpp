@@ -104,7 +104,8 @@ void describe_tool(KeyVisitor& v, ToolSettings& tool) {
 }
 
 void describe_density(KeyVisitor& v, SandStrength& sand) {
-  v.number("density", sand.density, positive, "kg/m^3", "bulk density of the sand");
+  v.number("density", sand.density, positive, "kg/m^3",
+           "bulk density of the sand, which a [[source]] needs with any force.law");
 }
 
 /// pours: the scene has sources, which need the sand's density.

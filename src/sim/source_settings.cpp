@@ -8,9 +8,9 @@ void describe_source(KeyVisitor& v, SourceSettings& source) {
   v.text("path", source.path,
          "a stroke that the nozzle follows from its start on, in metres on the bed (.toml, .h5 or a table of "
          "samples, relative to the scene); where its tool is lifted, the nozzle is closed; \"\": it stays");
-  if (source.path.empty()) v.require("at");
+  if (v.reads() && source.path.empty()) v.require("at");
   v.numbers("at", source.at.data(), 3, any_number, "m", "the nozzle's mouth; with a path: the path's shift");
-  v.require("rate");
+  if (v.reads()) v.require("rate");
   v.number("rate", source.rate, any_number, "kg/s",
            "sand that it pours; negative: that it takes, of what stands above its mouth");
   v.number("radius", source.radius, not_negative, "m", "radius of the mouth; 0: a point");

@@ -92,7 +92,7 @@ TEST(CliSource, IsRefusedByOneSentence) {
   refused({"run", "cone.toml", "--unset", "source.2.at"}, "source.2.at is missing");
   refused(set("source.1.radius=-1"), "source.1.radius is -1");
   refused({"run", "cone.toml", "--unset", "source", "--set", "force.density=1500"},
-          "force.density applies only where force.law is rft or archimedes, or where there is a [[source]]");
+          "force.density applies only where force.law is rft or archimedes");
   refused({"record", "--check", "--feel", "cone.toml"}, "record --feel takes no [[source]]");
 }
 

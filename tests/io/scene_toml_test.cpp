@@ -97,6 +97,7 @@ TEST(SceneToml, EveryKeyOfTheTableIsReadWithItsDefaultJustWhereItSaysThatItAppli
       const std::string value = row.key() == "file"                  ? "\"x.h5\""
                                 : row.name == "stone.1.centre"       ? "[0.0, 0.0, 0.0]"
                                 : row.name == "sand.region.1.points" ? "[[0, 0], [1, 0], [0, 1]]"
+                                : row.name == "source.1.rate"        ? "1"
                                 : row.value.empty()                  ? "1"
                                                                      : row.value;
       const auto reads = [&](const std::string& with) {
@@ -106,6 +107,8 @@ TEST(SceneToml, EveryKeyOfTheTableIsReadWithItsDefaultJustWhereItSaysThatItAppli
           settings.insert(settings.begin(), "sand.region=[{talus_angle = 30}]");
         if (row.name.starts_with("ground.")) settings.push_back("bed.floor=0");
         if (with == "stone.1.shape=mesh" && row.key() != "file") settings.push_back("stone.1.file=x.stl");
+        if (row.name.starts_with("source."))
+          settings = {"source=[{at = [0, 0, 0], rate = 1}]", "stroke.file=x.h5", settings.front()};
         if (row.name.starts_with("stroke.")) settings.push_back("stroke.file=x.h5");
         if (!with.empty()) settings.push_back(with);
         if (with == "bed.surface.kind=file") settings.push_back("bed.surface.file=x.h5");

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -182,6 +183,37 @@ TEST(Pouring, OntoASolidToolSlidesOffIt) {
     }
   const double fall = std::sqrt(2.0 * (fall_height + depth) / 9.81);  // to the sand under the tool
   EXPECT_NEAR(bed.volume() * scene.strength.density, 0.01 * (2.0 - fall), 0.01 * 2e-3);
+}
+
+TEST(Pouring, OfHostileSettingsEndsOrIsRefused) {
+  const auto run = [](const std::function<void(SourceSettings&)>& change) {
+    Scene scene = cone_scene(24);
+    SourceSettings& source = scene.sources[0];
+    source.stop = 0.05;
+    change(source);
+    try {
+      Simulation simulation(scene, starting_bed(scene.bed), std::nullopt);
+      const RunResult result = simulation.run();
+      EXPECT_TRUE(simulation.bed().grid().isFinite().all());
+      EXPECT_LT(result.volume_drift, 1e-12);
+      const SourceLedger& ledger = result.sources[0];
+      EXPECT_NEAR(ledger.landed, ledger.poured, 1e-14 * ledger.poured);
+      EXPECT_EQ(ledger.in_air, 0.0);
+      EXPECT_LE(ledger.taken, ledger.asked);
+    } catch (const Error& failure) {
+      EXPECT_EQ(failure.kind(), ErrorKind::unstable);
+    }
+  };
+  run([](SourceSettings& s) { s.rate = 1e308; });
+  run([](SourceSettings& s) { s.rate = 1e-300; });
+  run([](SourceSettings& s) { s.rate = -1e308; });
+  run([](SourceSettings& s) { s.rate = -1e308, s.at.z() = -1e-3, s.radius = 1e300; });
+  run([](SourceSettings& s) { s.at.z() = -1e300; });
+  run([](SourceSettings& s) { s.at.z() = 1e3; });
+  run([](SourceSettings& s) { s.at.x() = s.at.y() = 1e300; });
+  run([](SourceSettings& s) { s.radius = 1e300; });
+  run([](SourceSettings& s) { s.start = 0.0499999; });
+  run([](SourceSettings& s) { s.start = 1.0; });  // after its stop: it never opens
 }
 
 TEST(Pouring, EndsOnlyWhereASourceStops) {
