@@ -96,8 +96,8 @@ TEST(SceneToml, EveryKeyOfTheTableIsReadWithItsDefaultJustWhereItSaysThatItAppli
       // Files must be given; a key whose presence counts has no default.
       const std::string value = row.key() == "file"                  ? "\"x.h5\""
                                 : row.name == "stone.1.centre"       ? "[0.0, 0.0, 0.0]"
+                                : row.name == "source.1.at"          ? "[0.0, 0.0, 0.0]"
                                 : row.name == "sand.region.1.points" ? "[[0, 0], [1, 0], [0, 1]]"
-                                : row.name == "source.1.rate"        ? "1"
                                 : row.value.empty()                  ? "1"
                                                                      : row.value;
       const auto reads = [&](const std::string& with) {
