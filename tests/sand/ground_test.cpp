@@ -14,6 +14,7 @@
 #include "sand/active_sand.h"
 #include "sand/all_laws.h"
 #include "sand/relaxation.h"
+#include "sanitized.h"
 
 namespace sandstroke {
 namespace {
@@ -114,6 +115,7 @@ INSTANTIATE_TEST_SUITE_P(All, SandOnAFloor, testing::ValuesIn(over_floors),
                          [](const auto& one) { return name_of(one.param); });
 
 TEST_P(SandOnAFloor, StandsOnADiscAsACone) {
+  if (sanitized) GTEST_SKIP() << "takes minutes there; the other tests run the same code";
   // The tip of a cone in cells is blunt: first order. `paper` rests at up to 32 degrees between the axes.
   const double coarse = kept_on_disc(24, GetParam()) - 1.0, fine = kept_on_disc(48, GetParam()) - 1.0;
   if (GetParam().law == RelaxationLaw::paper) {
@@ -144,6 +146,7 @@ double off_on_sphere(int cells, const LawAndMethod& one) {
 }
 
 TEST_P(SandOnAFloor, StandsOnASphereAsACapWithATangentCone) {
+  if (sanitized) GTEST_SKIP() << "takes minutes there; the other tests run the same code";
   // A wedge that ends in nothing is hard for cells: it comes near only with small ones. `paper` rests at up
   // to 32 degrees between the axes.
   const double coarse = off_on_sphere(48, GetParam());
@@ -190,6 +193,7 @@ TEST_P(SandOnAFloor, HasTheBitsOfNoneWhereItIsDeep) {
 }
 
 TEST(SuperStepsOverAFloor, ComeToTheSameRestInFarFewerPasses) {
+  if (sanitized) GTEST_SKIP() << "takes minutes there; the other tests run the same code";
   for (const RelaxationLaw law : {RelaxationLaw::isotropic, RelaxationLaw::faces}) {
     std::int64_t passes = 0, stages = 0;
     const double by_passes = kept_on_disc(60, {law, RelaxationMethod::passes}, &passes),
@@ -243,6 +247,7 @@ INSTANTIATE_TEST_SUITE_P(All, KindsOfSand, testing::ValuesIn(on_kinds),
                          [](const auto& one) { return name_of(one.param); });
 
 TEST_P(KindsOfSand, RestAtTheirSlopesOnBothSidesOfASeam) {
+  if (sanitized) GTEST_SKIP() << "takes minutes there; the other tests run the same code";
   // Exact where the seam is on a face; inside a cell the error falls with order 1.5 or more.
   const bool steps = GetParam().method == RelaxationMethod::rkl;
   EXPECT_LT(seam_error(GetParam(), 40, 0.0).largest, steps ? 1e-4 : 2e-8);
@@ -271,6 +276,7 @@ TEST_P(KindsOfSand, HaveTheBitsOfOneKindWhereTheyAreOne) {
 }
 
 TEST_P(KindsOfSand, KeepTheirRangeOnAHostileMap) {
+  if (sanitized) GTEST_SKIP() << "takes minutes there; the other tests run the same code";
   HeightField bed(64, 64, 0.001);
   auto ground = std::make_shared<Ground>(bed, t30);
   std::mt19937 random(1);
@@ -330,6 +336,7 @@ std::pair<double, double> flanks(const LawAndMethod& one, int cells, double turn
 }
 
 TEST(KindsOfSand, StandWithBothFlanksOverATurnedSeam) {
+  if (sanitized) GTEST_SKIP() << "takes minutes there; the other tests run the same code";
   for (const RelaxationLaw law : {RelaxationLaw::isotropic, RelaxationLaw::faces})
     for (const double turn : {0.0, 22.5}) {
       const auto [gentle, steep] = flanks({law, RelaxationMethod::rkl}, 200, turn);
