@@ -82,6 +82,7 @@ double PlainDisplacement::displace(HeightGrid& heights, double tip_height, const
   const auto underside = [&](int row, int col) {
     return tip_height + filter::underside(profile_, radius_, rho2(row, col));
   };
+  const auto is_open = [&](int row, int col) { return !(floor_at(row, col) > tip_height + radius_); };
   HeightGrid excess = HeightGrid::Zero(row_end_ - row_begin_, col_end_ - col_begin_), ring = excess,
              weights = excess;  // of the window
   SumOfColumns taken, on_ring, on_part;
@@ -89,7 +90,7 @@ double PlainDisplacement::displace(HeightGrid& heights, double tip_height, const
     const int r = row - row_begin_, c = col - col_begin_;
     const double lowest = std::max(underside(row, col), floor_at(row, col));
     excess(r, c) = std::max(0.0, heights(row, col) - lowest);
-    weights(r, c) = ring(r, c) = filter::positive(u(row, col));
+    weights(r, c) = ring(r, c) = is_open(row, col) ? filter::positive(u(row, col)) : 0.0;
     if (settings.deposit == Deposit::ahead) weights(r, c) *= fraction_ahead(row, col, motion);
     taken.add(c, excess(r, c));
     on_ring.add(c, ring(r, c));
@@ -99,7 +100,7 @@ double PlainDisplacement::displace(HeightGrid& heights, double tip_height, const
   if (V == 0.0) return 0.0;
   double sum = on_part.total();
   if (settings.deposit == Deposit::outward) {
-    weights = spread_outward(excess, V, settings.distance);
+    weights = spread_outward(excess, V, settings.distance, is_open);
     sum = weights.sum();  // exact, in any order
   }
   if (sum == 0.0) {  // a wall is in the way
@@ -129,14 +130,17 @@ double PlainDisplacement::fraction_ahead(int row, int col, const Eigen::Vector3d
 
 /// `outward`: what each cell's sand brings to the four cells around the point `distance` radii from the axis.
 /// It goes in three parts, side by side round the axis.
-HeightGrid PlainDisplacement::spread_outward(const HeightGrid& excess, double taken, double distance) const {
+template <class IsOpen>
+HeightGrid PlainDisplacement::spread_outward(const HeightGrid& excess, double taken, double distance,
+                                             const IsOpen& is_open) const {
   const double quantum = std::ldexp(1.0, std::ilogb(taken) - 50);  // its multiples add up exactly
   const double axis_x = axis_x_ - (col_begin_ - col_origin_),      // cells, from the window's first
       axis_y = axis_y_ - (row_begin_ - row_origin_);
   HeightGrid weights = HeightGrid::Zero(excess.rows(), excess.cols());
   const auto takes = [&](int r, int c) {
     return r >= 0 && r < weights.rows() && c >= 0 && c < weights.cols() &&
-           !walls_(row_begin_ + r, col_begin_ + c) && !covers(row_begin_ + r, col_begin_ + c);
+           !walls_(row_begin_ + r, col_begin_ + c) && !covers(row_begin_ + r, col_begin_ + c) &&
+           is_open(row_begin_ + r, col_begin_ + c);
   };
   const auto part = [&](int row, int col, double aside) {
     const double x = col - axis_x, y = row - axis_y, rho = std::sqrt(x * x + y * y);

@@ -36,7 +36,7 @@ class PlainDisplacement {
   /// for the tip to be deep in.
   double floor_above(const HeightGrid& floor, double tip_height) const;
   /// Displaces with the tip at tip_height [m], reached by `motion` [m]. Returns V [m^3]. floor [m], if there
-  /// is one: no sand is below it, and it stays where it is.
+  /// is one: no sand is below it, and it stays where it is. None is put where it is above the tool's rim.
   double displace(HeightGrid& heights, double tip_height, const Eigen::Vector3d& motion,
                   const DisplacementSettings& settings, const HeightGrid* floor = nullptr) const;
   /// The tool is above the cell.
@@ -52,7 +52,9 @@ class PlainDisplacement {
   double rho2(int row, int col) const;
   double u(int row, int col) const { return filter::u_of(rho2(row, col), radius_); }
   double fraction_ahead(int row, int col, const Eigen::Vector3d& motion) const;
-  HeightGrid spread_outward(const HeightGrid& excess, double taken, double distance) const;
+  template <class IsOpen>
+  HeightGrid spread_outward(const HeightGrid& excess, double taken, double distance,
+                            const IsOpen& is_open) const;
 
   ToolProfile profile_;
   double radius_;  // m

@@ -124,7 +124,7 @@ HWY_INLINE Carved carve(const SphereShape& shape, ToolFootprint& f, double tip_h
   const V beyond = all((ring ? shape.reach * shape.reach : square) * above);
   const V s2 = all(shape.filter_scale2), a = all(shape.amplitude), offset = all(filter::offset);
   const V u0 = all(filter::u0), u1 = all(filter::u1);
-  const V cell = all(f.cell_size()), drag = all(front.drag_fraction);
+  const V cell = all(f.cell_size()), drag = all(front.drag_fraction), rim = all(tip_height + shape.radius);
   const bool sphere = shape.profile == ToolProfile::sphere;
   const Offsets offsets(f);
   LaneSum sum, front_weight, ring_weight;
@@ -155,6 +155,9 @@ HWY_INLINE Carved carve(const SphereShape& shape, ToolFootprint& f, double tip_h
       if (over_floor) {
         floor = hn::Load(d, f.floors(row) + col);
         lowest = Max(lowest, floor);
+        const Mask is_high = floor > rim;
+        takes = hn::IfThenZeroElse(is_high, takes);
+        on_ring = hn::IfThenZeroElse(is_high, on_ring);
       }
       const V excess = Max(height - lowest, zero);
       const Mask cut = excess > zero;

@@ -51,6 +51,7 @@ double floor_above(const SphereShape& shape, const ToolFootprint& footprint, dou
 // First pass (carve): fills underside() and takes(), lowers heights() to the underside of a tool whose tip is
 // at tip_height [m], flags the lowered cells, and keeps their excess(). sum: the sum of heights taken out
 // [m]. Where the floor is above the underside, sand is lowered to the floor.
+// takes() and ring_weight() of a sphere are 0 where the floor is above its rim.
 
 /// Carves only, and returns `sum`: for a sphere whose sand goes outward, or that only stands there
 /// (tip_height infinite).

@@ -94,6 +94,25 @@ TEST(DisplacementOverAFloor, NeverGoesBelowIt) {
   }
 }
 
+TEST(DisplacementOverAFloor, OfASpherePutsNoSandOnATallStone) {
+  const ToolSettings settings = every_tool().front();
+  for (const Deposit deposit : {Deposit::ring, Deposit::ahead, Deposit::outward}) {
+    const auto ground = std::make_shared<Ground>(HeightField(91, 97, floor_cell), 0.6);
+    for (int row = 0; row < 91; ++row)
+      for (int col = 0; col < 97; ++col)
+        if (ground->floor.x_of(col) > 0.0085) ground->floor.set(row, col, 0.05);
+    HeightField bed = rough_sand(ground, -0.001, 0.001, 2);
+    const double before = bed.volume();
+    const std::unique_ptr<Tool> tool = make_tool(settings);
+    tool->place(bed, 0.0, 0.0);
+    const double moved = tool->displace(bed, -0.004, {0.001, 0.0, -0.0001}, {deposit});
+    EXPECT_GT(moved, 0.0);
+    EXPECT_NEAR(bed.volume(), before, 1e-14 * moved + 1e-15 * std::abs(before));
+    for (int row = 0; row < 91; ++row)
+      for (int col = 0; col < 97; ++col) ASSERT_TRUE(bed.floor(row, col) < 0.0 || bed(row, col) == 0.05);
+  }
+}
+
 TEST(DisplacementOverAFloor, HasTheBitsOfNoneWhereThatIsDeep) {
   for (const ToolSettings& settings : every_tool())
     for (const double depth : {0.0099, 0.1, 1e6}) {

@@ -12,7 +12,8 @@
 namespace sandstroke {
 namespace {
 
-constexpr double pi = std::numbers::pi, none = -std::numeric_limits<double>::infinity();
+using std::numbers::pi;
+constexpr double none = -std::numeric_limits<double>::infinity();
 
 StoneSettings sphere(double x, double y, double z, double radius) {
   StoneSettings stone;
