@@ -109,8 +109,8 @@ void check_region(const SandRegion& region, const BedSettings& bed, const std::s
   check_length(region.radius, farthest, name, key + ".radius");
   check_length(region.soft, farthest, name, key + ".soft");
   if (is_outside(RegionArea(region).bounds(), bed))
-    throw_input_error("{}: {} lies outside the bed of {} m by {} m; move it, or remove it", name, key,
-                      bed.width, bed.depth);
+    throw_input_error("{}: {} lies outside the bed of {} m by {} m; change {}.{}, or remove it", name, key,
+                      bed.width, bed.depth, key, region.shape == RegionShape::polygon ? "points" : "centre");
 }
 
 void check_stone(const StoneSettings& stone, const Scene& scene, const std::string& name,
@@ -124,8 +124,8 @@ void check_stone(const StoneSettings& stone, const Scene& scene, const std::stri
   if (stone.shape == StoneShape::mesh && !stone.mesh) return;
   const Eigen::AlignedBox3d box = StoneSurface(stone).bounds();
   if (is_outside({box.min().head<2>(), box.max().head<2>()}, scene.bed))
-    throw_input_error("{}: {} lies outside the bed of {} m by {} m; move it, or remove it", name, key,
-                      scene.bed.width, scene.bed.depth);
+    throw_input_error("{}: {} lies outside the bed of {} m by {} m; change {}.centre, or remove it", name,
+                      key, scene.bed.width, scene.bed.depth, key);
   const std::optional<double>& floor = scene.ground.floor;
   if (floor && box.max().z() <= *floor)
     throw_input_error(

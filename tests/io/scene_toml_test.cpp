@@ -308,8 +308,8 @@ TEST(SceneToml, RefusesStonesAndRegionsThatCannotBeMeant) {
   EXPECT_EQ(said(two_stones, {"stone.3.radius=1"}),
             "--set stone.3.radius=1: scene.toml has 2 [[stone]] tables, counted from 1, and no stone.3");
   EXPECT_EQ(said(two_stones, {"stone.2.centre=[5, 0, 0]"}),
-            "--set stone.2.centre=[5, 0, 0]: stone.2 lies outside the bed of 2 m by 2 m; move it, or remove "
-            "it");
+            "--set stone.2.centre=[5, 0, 0]: stone.2 lies outside the bed of 2 m by 2 m; change "
+            "stone.2.centre, or remove it");
 }
 
 TEST(SceneToml, RefusesWhatCannotBeMeant) {

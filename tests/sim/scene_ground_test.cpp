@@ -57,7 +57,8 @@ TEST(CheckGround, TakesAGarden) {
 TEST(CheckGround, WhatCannotBeSeenIsRefused) {
   Scene scene = small_garden();
   scene.ground.stones = {sphere(0.0, 0.0, 0.0, 0.1), sphere(0.61, 0.0, 0.0, 0.1)};
-  EXPECT_EQ(complaint(scene), "a.toml: stone.2 lies outside the bed of 1 m by 1 m; move it, or remove it");
+  EXPECT_EQ(complaint(scene),
+            "a.toml: stone.2 lies outside the bed of 1 m by 1 m; change stone.2.centre, or remove it");
   scene.ground.stones = {sphere(0.0, 0.0, -0.5, 0.25)};
   EXPECT_EQ(complaint(scene), "none");  // a tool may get there
   scene.ground.floor = -0.25;
@@ -71,8 +72,9 @@ TEST(CheckGround, WhatCannotBeSeenIsRefused) {
   scene.ground.regions.resize(2);
   EXPECT_EQ(complaint(scene), "a.toml: sand.region.2 is the same as sand.region.1; remove one of them");
   scene.ground.regions[1].centre = {0.0, -0.76};
-  EXPECT_EQ(complaint(scene),
-            "a.toml: sand.region.2 lies outside the bed of 1 m by 1 m; move it, or remove it");
+  EXPECT_EQ(
+      complaint(scene),
+      "a.toml: sand.region.2 lies outside the bed of 1 m by 1 m; change sand.region.2.centre, or remove it");
   scene.ground.regions[1].soft = 0.04;  // its band reaches the bed
   EXPECT_EQ(complaint(scene), "none");
 }
