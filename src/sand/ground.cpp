@@ -47,8 +47,6 @@ std::string content_hash(const Ground& ground) {
   return content_hash(ground.floor) + content_hash(ground.talus_slopes);
 }
 
-bool has_floor(const HeightField& bed) {
-  return bed.ground() && bed.ground()->has_floor();
-}
+bool has_floor(const HeightField& bed) { return bed.ground() && bed.ground()->has_floor(); }
 
 }  // namespace sandstroke

@@ -12,7 +12,7 @@ const double t = std::tan(M_PI / 6.0);  // on cells of 1 m
 
 TalusPass pass_over(const HeightGrid& heights, RelaxationLaw law, double share, CompensatedSum& moved) {
   const WallGrid walls = WallGrid::Zero(heights.rows(), heights.cols());
-  return talus_pass(heights, walls, talus_law(law, share, talus, 0.0, 1.0), moved);
+  return talus_pass(heights, walls, nullptr, talus_law(law, share, talus, 0.0, 1.0), moved);
 }
 
 TEST(TalusPass, PaperDividesTheExcessInProportionToTheDrops) {
@@ -53,7 +53,7 @@ TEST(TalusPass, MovesNothingAtTheTalusAndInWalls) {
     EXPECT_FALSE(pass_over(heights, law, 0.25, moved).flows);
     const HeightGrid cliff = 10.0 * heights;
     WallGrid walls = WallGrid::Ones(6, 6);
-    const TalusPass walled = talus_pass(cliff, walls, talus_law(law, 0.25, talus, 0.0, 1.0), moved);
+    const TalusPass walled = talus_pass(cliff, walls, nullptr, talus_law(law, 0.25, talus, 0.0, 1.0), moved);
     EXPECT_FALSE(walled.flows);
     EXPECT_EQ(moved.value(), 0.0);
   }

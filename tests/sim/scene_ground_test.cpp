@@ -11,8 +11,6 @@
 namespace sandstroke {
 namespace {
 
-constexpr double nothing = -std::numeric_limits<double>::infinity();
-
 /// 1 m x 1 m in cells of 1 cm, without a ground.
 Scene small_garden() {
   Scene scene;
@@ -170,7 +168,7 @@ TEST(OnGround, WithoutAFloorSandIsDeepBesideAStone) {
   Scene scene = small_garden();
   scene.ground.stones = {sphere(0.0, 0.0, 0.0, 0.1)};
   const HeightField bed = on_ground(starting_bed(scene.bed), scene);
-  EXPECT_EQ(bed.floor(0, 0), nothing);
+  EXPECT_EQ(bed.floor(0, 0), -std::numeric_limits<double>::infinity());
 }
 
 TEST(OnGround, AHugeBedOnAFloorAllocatesNothing) {
