@@ -135,7 +135,7 @@ TEST(CliExport, SurfacesAreThoseThatTheRunHolds) {
   EXPECT_NE(read_file(folder / "0.npy"), read_file(folder / "2.npy"));
   expect_refused(export_to(folder, "x.npy", {"--frame", "99"}), "a.h5: has no frame 99; take 0 to 5");
   expect_refused(export_to(folder, "x.npy", {"--frame", "all"}),
-                 "--frame all is not a frame; take final, initial or a number");
+                 "--frame all is not a frame; take final, initial, floor or a number");
 }
 
 /// Runs a scene that begins as this PNG; --set ... as given.
