@@ -9,6 +9,18 @@
 #include "sand/super_step_kernels.h"
 
 namespace sandstroke {
+namespace {
+
+/// Lays out in `patch` the ground under a tile (by index); null where it makes no difference.
+void load_ground(const HeightField& bed, int tile, bool near_level, std::unique_ptr<GroundPatch>& patch) {
+  const Ground* ground = bed.ground();
+  if (!ground || !(near_level || ground->has_floor_around(tile) || ground->has_slopes_around(tile)))
+    return patch.reset();
+  if (!patch) patch = std::make_unique<GroundPatch>();
+  patch->load(bed.shared_ground(), tile, near_level);
+}
+
+}  // namespace
 
 ActiveSand::ActiveSand(const TalusLaw& law, double tolerance, double cell_size, Givers givers,
                        const SandStart& start, std::int64_t worth_threads)
@@ -61,14 +73,6 @@ void ActiveSand::look_at_floor(const HeightField& bed) {
   }
   for (const int slot : bed.disturbed_tiles())
     near_level_ = near_level_ || is_near(bed.tile_heights(slot), bed.tile_cells(bed.tile_of(slot)));
-}
-
-void load_ground(const HeightField& bed, int tile, bool near_level, std::unique_ptr<GroundPatch>& patch) {
-  const Ground* ground = bed.ground();
-  if (!ground || !(near_level || ground->has_floor_around(tile) || ground->has_slopes_around(tile)))
-    return patch.reset();
-  if (!patch) patch = std::make_unique<GroundPatch>();
-  patch->load(bed.shared_ground(), tile, near_level);
 }
 
 void ActiveSand::measure_residuals(const TilePatch& patch, const GroundPatch* ground,

@@ -149,9 +149,6 @@ class ActiveSand {
   int tiles_active_max_ = 0;
 };
 
-/// Lays out in `patch` the ground under a tile (by index); null where it makes no difference.
-void load_ground(const HeightField& bed, int tile, bool near_level, std::unique_ptr<GroundPatch>& patch);
-
 template <class InStep, class Join>
 double ActiveSand::compute_flow(HeightField& bed, const InStep& in_step, const Join& join) {
   for (const int slot : tiles()) {
