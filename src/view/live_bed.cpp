@@ -63,7 +63,7 @@ void LiveBed::copy_floor(int tile, float* out) const {
   std::array<double, tile_area> floor;
   ground_->floor.read_tile(tile, floor.data());
   for (double& height : floor)
-    if (!std::isfinite(height)) height = no_floor;
+    if (!std::isfinite(height)) height = static_cast<double>(no_floor);
   copy_inside(floor.data(), tile_cells(tile), out);
 }
 
