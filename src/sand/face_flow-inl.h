@@ -7,6 +7,7 @@
 #endif
 
 #include "sand/flow_in_step-inl.h"
+#include "sand/slopes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sandstroke {
@@ -56,6 +57,28 @@ struct RightFaces {
   bool west;
 };
 
+/// The faces of a row through which sand flows, of those to the right of the flagged cells and beside their
+/// row's western end, or below them. flow(begin): the flags of eight faces.
+template <class Flow>
+HWY_INLINE RightFaces flowing_to_the_right(std::uint64_t cells, const Flow& flow) {
+  RightFaces flowing{0, false};
+  if (cells & 1) flowing.west = flow(-group) >> (group - 1) & 1;
+  for (unsigned wanted = groups_of(cells | cells >> 1); wanted; wanted &= wanted - 1) {
+    const int begin = std::countr_zero(wanted) * group;
+    flowing.own |= static_cast<std::uint64_t>(flow(begin)) << begin;
+  }
+  return flowing;
+}
+template <class Flow>
+HWY_INLINE std::uint64_t flowing_downwards(std::uint64_t cells, const Flow& flow) {
+  std::uint64_t flowing = 0;
+  for (unsigned wanted = groups_of(cells); wanted; wanted &= wanted - 1) {
+    const int begin = std::countr_zero(wanted) * group;
+    flowing |= static_cast<std::uint64_t>(flow(begin)) << begin;
+  }
+  return flowing;
+}
+
 template <class Sand>
 class FaceFluxes {
  public:
@@ -74,21 +97,10 @@ class FaceFluxes {
   /// Computes the flux [m per pass] through the faces beside the flagged cells. Returns the faces through
   /// which sand flows.
   HWY_INLINE RightFaces to_the_right(int row, std::uint64_t cells) {
-    RightFaces flowing{0, false};
-    if (cells & 1) flowing.west = group_of_faces(row, -group, 0) >> (group - 1) & 1;
-    for (unsigned wanted = groups_of(cells | cells >> 1); wanted; wanted &= wanted - 1) {
-      const int begin = std::countr_zero(wanted) * group;
-      flowing.own |= static_cast<std::uint64_t>(group_of_faces(row, begin, 0)) << begin;
-    }
-    return flowing;
+    return flowing_to_the_right(cells, [&](int begin) { return group_of_faces(row, begin, 0); });
   }
   HWY_INLINE std::uint64_t downwards(int row, std::uint64_t cells) {
-    std::uint64_t flowing = 0;
-    for (unsigned wanted = groups_of(cells); wanted; wanted &= wanted - 1) {
-      const int begin = std::countr_zero(wanted) * group;
-      flowing |= static_cast<std::uint64_t>(group_of_faces(row, begin, 1)) << begin;
-    }
-    return flowing;
+    return flowing_downwards(cells, [&](int begin) { return group_of_faces(row, begin, 1); });
   }
 
  private:
@@ -134,13 +146,9 @@ HWY_INLINE void sweep_faces(Faces& faces, const TalusLaw& law, const CellFlags& 
     return beside.own | beside.own << 1 | static_cast<std::uint64_t>(beside.west) | above | below;
   };
   sweep_rows(law, active, rows, sand, sink, flow, cells_of, [&](int row, int c, Mask cells, LaneSum& given) {
-    const V zero = hn::Zero(d);
-    const V east = hn::Load(d, faces.right(row) + c), west = hn::LoadU(d, faces.right(row) + c - 1);
-    const V south = hn::Load(d, faces.below(row) + c), north = hn::Load(d, faces.below(row - 1) + c);
-    const V out =
-        (Max(zero, east) + Max(zero, hn::Neg(west))) + (Max(zero, south) + Max(zero, hn::Neg(north)));
-    given.add(c, where(cells, out));
-    return where(cells, (west - east) + (north - south));
+    const CellFaces around(faces.right(row) + c, faces.below(row) + c);
+    given.add(c, where(cells, around.given()));
+    return where(cells, around.gained());
   });
 }
 

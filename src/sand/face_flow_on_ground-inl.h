@@ -95,21 +95,10 @@ class FacesOnGround {
   /// Limits the fluxes [m per pass] through the faces beside the flagged cells. Returns the faces through
   /// which sand flows.
   HWY_INLINE RightFaces to_the_right(int row, std::uint64_t cells) const {
-    RightFaces flowing{0, false};
-    if (cells & 1) flowing.west = limit(row, -group, 0) >> (group - 1) & 1;
-    for (unsigned wanted = groups_of(cells | cells >> 1); wanted; wanted &= wanted - 1) {
-      const int begin = std::countr_zero(wanted) * group;
-      flowing.own |= static_cast<std::uint64_t>(limit(row, begin, 0)) << begin;
-    }
-    return flowing;
+    return flowing_to_the_right(cells, [&](int begin) { return limit(row, begin, 0); });
   }
   HWY_INLINE std::uint64_t downwards(int row, std::uint64_t cells) const {
-    std::uint64_t flowing = 0;
-    for (unsigned wanted = groups_of(cells); wanted; wanted &= wanted - 1) {
-      const int begin = std::countr_zero(wanted) * group;
-      flowing |= static_cast<std::uint64_t>(limit(row, begin, 1)) << begin;
-    }
-    return flowing;
+    return flowing_downwards(cells, [&](int begin) { return limit(row, begin, 1); });
   }
 
  private:
@@ -160,15 +149,11 @@ class FacesOnGround {
   double* scales(int row) const { return scratch_.scales.data() + TilePatch::start(row); }
   /// By what the fluxes out of eight cells are multiplied.
   HWY_INLINE void find_scales(int row, int begin) {
-    const V zero = hn::Zero(d), one = all(1.0);
     for (int c = begin; c < begin + group; c += lanes) {
-      const V east = hn::Load(d, right(row) + c), west = hn::LoadU(d, right(row) + c - 1);
-      const V south = hn::Load(d, below(row) + c), north = hn::Load(d, below(row - 1) + c);
-      const V out =
-          (Max(zero, east) + Max(zero, hn::Neg(west))) + (Max(zero, south) + Max(zero, hn::Neg(north)));
+      const V out = CellFaces(right(row) + c, below(row) + c).given();
       const V most = ground_.most_given(ground_.sand(row, c, hn::Load(d, patch_.heights(row) + c)));
       const Mask emptied = out > most;
-      hn::Store(hn::IfThenElse(emptied, most / out, one), d, scales(row) + c);
+      hn::Store(hn::IfThenElse(emptied, most / out, all(1.0)), d, scales(row) + c);
       flag_films(row, c, emptied, scratch_);
     }
   }

@@ -178,7 +178,7 @@ HWY_INLINE void flow_on_ground(const TalusLaw& law, const TilePatch& patch, cons
 /// of them.
 void keep_fluxes(const TalusLaw& law, const TilePatch& patch, const TileFlow& flow,
                  const FlowScratch& scratch, TileFluxes& fluxes) {
-  clear_fluxes(fluxes);
+  fluxes.clear();
   const auto keep = [&](int row, int c, Mask cells, int down) {
     const auto at = [&](const auto& values, int r, int col) {
       return hn::LoadU(d, values.data() + TilePatch::start(r) + col);
@@ -214,14 +214,15 @@ void count_flows(const TileFluxes& fluxes, const FlowScratch& scratch, const Tal
   for (int row = flow.rows.begin; row < flow.rows.end; ++row)
     for_vectors(groups_of(flow.moved[row]), [&](int c) {
       const auto film = [&](int r, int col) { return cells_from(scratch.films[r + 1], col); };
-      const double *right = fluxes.right->row(row) + c, *below = fluxes.below->row(row) + c;
-      V east = hn::Load(d, right), west = hn::LoadU(d, right - 1);
-      V south = hn::Load(d, below), north = hn::Load(d, below - TilePatch::stride);
-      east = hn::IfThenZeroElse(hn::And(east < zero, film(row, c + 1)), east);
-      west = hn::IfThenZeroElse(hn::And(west > zero, film(row, c - 1)), west);
-      south = hn::IfThenZeroElse(hn::And(south < zero, film(row + 1, c)), south);
-      north = hn::IfThenZeroElse(hn::And(north > zero, film(row - 1, c)), north);
-      const V gain = hn::IfThenZeroElse(film(row, c), (west - east) + (north - south));
+      CellFaces faces(fluxes.right->row(row) + c, fluxes.below->row(row) + c);
+      const auto leave_out = [](V& flow, Mask given_by_a_film) {
+        flow = hn::IfThenZeroElse(given_by_a_film, flow);
+      };
+      leave_out(faces.east, hn::And(faces.east < zero, film(row, c + 1)));
+      leave_out(faces.west, hn::And(faces.west > zero, film(row, c - 1)));
+      leave_out(faces.south, hn::And(faces.south < zero, film(row + 1, c)));
+      leave_out(faces.north, hn::And(faces.north > zero, film(row - 1, c)));
+      const V gain = hn::IfThenZeroElse(film(row, c), faces.gained());
       hn::Store(gain, d, flow.gain.data() + row * side + c);
       sand.flows(row, c, gain);
     });

@@ -33,14 +33,10 @@ void AdvanceFluxes(double momentum, double step, FluxTile& tile) {
 /// By what the fluxes out of the cells of a vector are multiplied.
 HWY_INLINE V scale_of(const TileFluxes& D, const GroundPatch& ground, const TilePatch& patch, int row,
                       int c) {
-  const V zero = hn::Zero(d), one = all(1.0);
-  const double *right = D.right->row(row) + c, *below = D.below->row(row) + c;
-  const V east = hn::LoadU(d, right), west = hn::LoadU(d, right - 1);
-  const V south = hn::LoadU(d, below), north = hn::LoadU(d, below - PatchLayout::stride);
-  const V out = (Max(zero, east) + Max(zero, hn::Neg(west))) + (Max(zero, south) + Max(zero, hn::Neg(north)));
+  const V out = CellFaces(D.right->row(row) + c, D.below->row(row) + c).given();
   const V sand = hn::LoadU(d, patch.heights(row) + c) - hn::LoadU(d, ground.floor.row(row) + c);
-  const Mask emptied = hn::And(out > sand, out > zero);
-  return hn::IfThenElse(emptied, sand / out, one);
+  const Mask emptied = hn::And(out > sand, out > hn::Zero(d));
+  return hn::IfThenElse(emptied, sand / out, all(1.0));
 }
 
 /// The fluxes of one direction, each limited by its giver's scale.
@@ -67,19 +63,18 @@ HeightRange FluxStage(const GroundPatch& ground, const CellFlags& active, RowSpa
     const unsigned wanted = groups_of(active[row]);
     std::uint64_t flags = 0;
     for_vectors(wanted, [&](int c) {
-      const double *right = tile.flow.right->row(row) + c, *below = tile.flow.below->row(row) + c;
-      const V east = hn::Load(d, right), west = hn::LoadU(d, right - 1);
-      const V south = hn::Load(d, below), north = hn::Load(d, below - PatchLayout::stride);
+      const CellFaces faces(tile.flow.right->row(row) + c, tile.flow.below->row(row) + c);
       double* cells = patch.heights(row) + c;
       const V now = hn::Load(d, cells), zero = hn::Zero(d);
-      const V gained = now + ((west - east) + (north - south));
+      const V gained = now + faces.gained();
       const V floor = hn::Load(d, ground.floor.row(row) + c);
       const V next = hn::IfThenElse(gained < floor, floor, gained);
       hn::Store(now, d, kept.before->row(row) + c);
       hn::Store(next, d, cells);
       range.add(next, lanes_of(active[row] >> c));
       // Sand that passes through takes its momentum on.
-      const Mask passes = hn::Or(hn::Or(east != zero, west != zero), hn::Or(south != zero, north != zero));
+      const Mask passes = hn::Or(hn::Or(faces.east != zero, faces.west != zero),
+                                 hn::Or(faces.south != zero, faces.north != zero));
       flags |= static_cast<std::uint64_t>(bits(hn::Or(next != now, passes))) << c;
     });
     changed[row] = flags & active[row];
@@ -99,13 +94,6 @@ namespace sandstroke {
 
 HWY_EXPORT(AdvanceFluxes);
 HWY_EXPORT(FluxStage);
-
-void clear_fluxes(TileFluxes& fluxes) {
-  for (int row = -PatchLayout::rim; row < PatchLayout::side + PatchLayout::rim; ++row)
-    for (PatchHeights* one : {fluxes.right.get(), fluxes.below.get()})
-      std::fill(one->row(row) - PatchLayout::margin, one->row(row) + PatchLayout::side + PatchLayout::margin,
-                0.0);
-}
 
 void advance_fluxes(double momentum, double step, FluxTile& tile) {
   HWY_DYNAMIC_DISPATCH(AdvanceFluxes)(momentum, step, tile);

@@ -12,6 +12,11 @@ namespace sandstroke {
 struct TileFluxes {
   std::unique_ptr<PatchHeights> right = std::make_unique<PatchHeights>(),
                                 below = std::make_unique<PatchHeights>();
+  /// Nothing flows.
+  void clear() {
+    right->fill(0.0);
+    below->fill(0.0);
+  }
   void swap(TileFluxes& other) {
     right.swap(other.right);
     below.swap(other.below);
@@ -29,9 +34,6 @@ struct FluxTile {
 /// D of a tile and of those around it, row by row; null where nothing flows. The middle one is the tile's
 /// own.
 using FluxesAround = std::array<TileFluxes*, 9>;
-
-/// Nothing flows.
-void clear_fluxes(TileFluxes& fluxes);
 
 /// stage = momentum * stage + step * flow.
 void advance_fluxes(double momentum, double step, FluxTile& tile);

@@ -209,7 +209,7 @@ class RklRelaxer : public SuperStepper {
     joining.step = step_;
     joining.kept.stepped = joining.kept.same = joining.kept.first.moved = {};
     joining.kept.rows = joining.kept.first.rows = {};
-    if (joining.flux) clear_fluxes(joining.flux->stage);
+    if (joining.flux) joining.flux->stage.clear();
   }
 
   /// Keeps the flow as F0. Returns its size.

@@ -63,6 +63,26 @@ HWY_INLINE Exchange exchange(V m, V factor, V neighbour, V neighbour_factor, V t
 }
 HWY_INLINE Exchange operator+(const Exchange& a, const Exchange& b) { return {a.out + b.out, a.in + b.in}; }
 
+/// What flows through the faces of the cells in a vector: to the east and to the south it counts as positive.
+struct CellFaces {
+  V east, west, south, north;
+
+  /// The cells' entries where each cell has the flow through its eastern (right) and southern face (below),
+  /// in the layout of a patch.
+  HWY_INLINE CellFaces(const double* right, const double* below)
+      : east(hn::LoadU(d, right)),
+        west(hn::LoadU(d, right - 1)),
+        south(hn::LoadU(d, below)),
+        north(hn::LoadU(d, below - TilePatch::stride)) {}
+
+  /// What the cells give through all faces, and what they gain by all.
+  HWY_INLINE V given() const {
+    const V zero = hn::Zero(d);
+    return (Max(zero, east) + Max(zero, hn::Neg(west))) + (Max(zero, south) + Max(zero, hn::Neg(north)));
+  }
+  HWY_INLINE V gained() const { return (west - east) + (north - south); }
+};
+
 /// What flows from a cell to a neighbour this much lower, or back (negative), with the factors of both.
 HWY_INLINE V exchanged(V drop, V factor, V neighbour_factor) {
   const V zero = hn::Zero(d);

@@ -27,6 +27,7 @@ class PatchHeights : public PatchLayout {
   PatchHeights();
   double* row(int r) { return values_.data() + start(r); }
   const double* row(int r) const { return values_.data() + start(r); }
+  void fill(double height) { values_.fill(height); }
 
  private:
   alignas(64) std::array<double, size> values_;
