@@ -78,17 +78,26 @@ double law_slope(const HeightField& bed, int row, int col, RelaxationLaw law) {
   return std::max({x, y, diagonal / std::numbers::sqrt2}) / bed.cell_size();
 }
 
+namespace {
+
+/// The talus angle of a cell's sand [deg].
+double talus_of(const HeightField& bed, int row, int col, double elsewhere) {
+  return bed.ground() ? to_degrees(std::atan(bed.ground()->talus_slopes(row, col))) : elsewhere;
+}
+
+}  // namespace
+
 SlopeMeasures measure_slopes(const HeightField& initial, const HeightField& final,
                              const RelaxationSettings& settings) {
   CompensatedSum sum;
   double steepest = 0.0, law_steepest = 0.0, changed = 0.0, at_talus = 0.0;
   visit_cells_of_both(initial, final, [&](int row, int col, double before, double after) {
-    if (before == after) return;
+    if (before == after || after == final.floor(row, col)) return;
     const double angle = to_degrees(std::atan(descent_slope(final, row, col)));
     sum.add(angle);
     steepest = std::max(steepest, angle);
     changed += 1.0;
-    at_talus += std::abs(angle - settings.talus_angle) <= 1.0;
+    at_talus += std::abs(angle - talus_of(final, row, col, settings.talus_angle)) <= 1.0;
     law_steepest = std::max(law_steepest, law_slope(final, row, col, settings.law));
   });
   if (changed == 0.0) return {};

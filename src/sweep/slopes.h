@@ -7,13 +7,13 @@
 
 namespace sandstroke {
 
-/// Slopes of the cells that changed. NaN: no cell changed.
+/// Slopes of the cells that changed and have sand. NaN: there are none.
 struct SlopeMeasures {
   double mean = std::numeric_limits<double>::quiet_NaN();               ///< deg, by descent_slope()
   double steepest = std::numeric_limits<double>::quiet_NaN();           ///< deg, by descent_slope()
   double law_steepest = std::numeric_limits<double>::quiet_NaN();       ///< deg, by law_slope()
   double fraction_at_talus = std::numeric_limits<double>::quiet_NaN();  ///< fraction of these cells within 1
-                                                                        ///< degree of the talus angle
+                                                                        ///< degree of their talus angle
 };
 
 /// Steepest way down from a cell, rise over run, over the eight triangles that its centre makes with the

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numbers>
 
 #include "sand/all_laws.h"
@@ -180,6 +181,31 @@ TEST(Slopes, AreTheAngleOfACone) {
   // Cells within r of the middle are off by 1 / r (cells) at most, the last ring at the foot by any amount.
   EXPECT_NEAR(measures.mean, 30.0, 0.5);
   EXPECT_GT(measures.fraction_at_talus, 0.9);
+}
+
+TEST(Slopes, OfSeveralSandsAreComparedWithTheirOwnTalusAngle) {
+  // Sand at 25 deg to the west of a crest, at 35 deg to the east.
+  const auto slope_at = [](double x) { return std::tan((x < 0.0 ? 25.0 : 35.0) * std::numbers::pi / 180.0); };
+  const HeightField before(80, 80, cell_size);
+  HeightField after = bed_of(80, [&](double x, double) { return 1.0 - std::abs(x) * slope_at(x); });
+  auto ground = std::make_shared<Ground>(after, slope_at(-1.0));
+  for (int row = 0; row < 80; ++row)
+    for (int col = 40; col < 80; ++col) ground->talus_slopes.set(row, col, slope_at(1.0));
+  EXPECT_LT(measure_slopes(before, after, talus(25.0)).fraction_at_talus, 0.55);
+  after.lie_on(ground);
+  EXPECT_GT(measure_slopes(before, after, talus(25.0)).fraction_at_talus, 0.95);
+}
+
+TEST(Slopes, AreNotThoseOfBareStones) {
+  const HeightField before(80, 80, cell_size);
+  HeightField after = bed_of(80, [](double x, double) { return std::max(0.1 * x, 0.0); });
+  auto ground = std::make_shared<Ground>(after, -1.0, 0.5);
+  ground->floor.set(40, 60, 5.0);
+  const double sand_alone = measure_slopes(before, after, talus(30.0)).steepest;
+  after.lie_on(ground);
+  ASSERT_EQ(after(40, 60), 5.0);
+  // What lies beside a stone is not steeper for it.
+  EXPECT_EQ(measure_slopes(before, after, talus(30.0)).steepest, sand_alone);
 }
 
 }  // namespace
