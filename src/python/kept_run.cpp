@@ -21,12 +21,6 @@ void append(std::vector<double>& heights, const HeightGrid& grid) {
   heights.insert(heights.end(), grid.data(), grid.data() + grid.size());
 }
 
-/// The floor under a bed's sand as Python has it.
-HeightGrid floor_grid(const Ground& ground) {
-  const HeightGrid floor = ground.floor.grid();
-  return floor.isFinite().select(floor, std::numeric_limits<double>::quiet_NaN());
-}
-
 class Keeper : public SimulationObserver {
  public:
   explicit Keeper(KeptRun& run) : run_(run) {}
@@ -47,6 +41,11 @@ class Keeper : public SimulationObserver {
 };
 
 }  // namespace
+
+HeightGrid floor_grid(const Ground& ground) {
+  const HeightGrid floor = ground.floor.grid();
+  return floor.isFinite().select(floor, std::numeric_limits<double>::quiet_NaN());
+}
 
 namespace {
 

@@ -32,6 +32,9 @@ struct KeptRun {
   std::vector<double> frames;       ///< m, one after the other
 };
 
+/// The floor of a ground as Python has it [m]: not-a-number where there is none.
+HeightGrid floor_grid(const Ground& ground);
+
 /// Makes the bed of a scene with these heights [m]. Error: input, if their shape is not that of bed.cells, or
 /// if some are missing (not-a-number) or beyond all sense.
 HeightField surface_of(const Scene& scene, HeightGrid heights);

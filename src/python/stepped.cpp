@@ -71,6 +71,16 @@ py::dict relax(Stepped& stepped) {
   return result;
 }
 
+py::list sources_of(Stepped& stepped) {
+  py::list sources;
+  for (const SourceLedger& source : stepped.use([](SteppedSimulation& s) { return s.sources(); })) {
+    py::dict row;
+    visit_source_fields([&](const FieldText& field, const auto& of) { row[field.name] = of(source); });
+    sources.append(row);
+  }
+  return sources;
+}
+
 }  // namespace
 
 void add_stepped(py::module_& module) {
@@ -123,6 +133,14 @@ void add_stepped(py::module_& module) {
           [](Stepped& stepped) {
             return copy_of(stepped.use([](SteppedSimulation& s) { return HeightGrid(s.bed().grid()); }));
           })
+      .def_property_readonly("floor",
+                             [](Stepped& stepped) -> py::object {
+                               const HeightGrid floor = stepped.use([](SteppedSimulation& s) {
+                                 return has_floor(s.bed()) ? floor_grid(*s.bed().ground()) : HeightGrid();
+                               });
+                               return floor.size() == 0 ? py::object(py::none()) : py::object(copy_of(floor));
+                             })
+      .def_property_readonly("sources", &sources_of)
       .def_property_readonly(
           "time", [](Stepped& stepped) { return stepped.use([](SteppedSimulation& s) { return s.time(); }); })
       .def_property_readonly("scene", &Stepped::scene)

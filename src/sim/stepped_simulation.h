@@ -26,6 +26,10 @@ class SteppedSimulation {
 
   const Scene& scene() const { return loop_.scene(); }
   const HeightField& bed() const { return loop_.bed(); }
+  /// Where the sand of each source is, in the scene's order.
+  std::vector<SourceLedger> sources() const {
+    return loop_.sources() ? loop_.sources()->ledgers() : std::vector<SourceLedger>();
+  }
   /// Time of the next tick [s].
   double time() const;
 

@@ -367,3 +367,18 @@ def test_the_interpreter_ends_while_a_daemon_thread_works(work):
     ended = subprocess.run([sys.executable, "-c", IN_A_THREAD.format(work=work)], capture_output=True, text=True,
                            timeout=20)
     assert (ended.returncode, ended.stderr) == (0, ""), ended
+
+
+def test_floor_and_sources_are_told(small):
+    sim = sandstroke.Simulation(small)
+    assert sim.floor is None and sim.sources == []
+    pouring = sandstroke.Simulation(small, settings={
+        "bed.floor": -0.01, "source": [{"at": [0.0, 0.0, 0.05], "rate": 0.01}, {"at": [0.05, 0.0, -0.005], "rate": -1.0}]})
+    assert np.array_equal(pouring.floor, np.full(pouring.heights.shape, -0.01))
+    for _ in range(200):
+        pouring.tick((0.0, 0.0, 0.2), down=False)
+    poured, taken = pouring.sources
+    assert poured["poured"] == pytest.approx(0.01 * 0.2, rel=1e-12)
+    assert poured["landed"] + poured["in_air"] == pytest.approx(poured["poured"], rel=1e-14)
+    assert 0.0 < taken["taken"] < taken["asked"] == pytest.approx(0.2, rel=1e-12)
+    assert (pouring.heights >= pouring.floor).all()

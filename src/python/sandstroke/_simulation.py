@@ -120,6 +120,16 @@ class Simulation:
         """The sand as it is now [m]: rows along y, columns along x; a copy."""
         return self._stepped.heights
 
+    @property
+    def floor(self) -> np.ndarray | None:
+        """Stones and the bottom under the sand [m]; nan where there is nothing. None without any. A copy."""
+        return self._stepped.floor
+
+    @property
+    def sources(self) -> list[dict[str, float]]:
+        """Where the sand of each [[source]] is [kg]: poured, landed, in_air; asked and taken of a sink."""
+        return self._stepped.sources
+
     def height_at(self, x: float, y: float) -> float:
         """Height of the sand at (x, y) [m]; nan beside the bed."""
         return self._stepped.height_at(x, y)
