@@ -21,6 +21,7 @@ inline constexpr Range any_number{};
 inline constexpr Range positive{0.0, std::numeric_limits<double>::max(), true};
 inline constexpr Range not_negative{0.0, std::numeric_limits<double>::max(), false};
 inline constexpr Range degrees{-360.0, 360.0, false};
-inline constexpr Range sharp_angle{0.0, 90.0, true};  ///< deg
+inline constexpr Range sharp_angle{0.0, 90.0, true};       ///< deg
+inline constexpr Range friction_angles{5.0, 60.0, false};  ///< deg, of sand
 
 }  // namespace sandstroke

@@ -16,6 +16,11 @@ FeltStroke felt_stroke(const Scene& asked, const std::filesystem::path& scene_fo
         "model.force = \"{}\" is a plugin law, and fit does not know its constants; vary model.parameters in "
         "a sweep, or leave out model.force to fit force.law",
         asked.plugin_laws.force);
+  if (asked.ground.has_strengths() || asked.ground.has_k_s())
+    throw_input_error(
+        "fit knows one sand, and a [[sand.region]] or [[sand.layer]] of the scene gives the force another "
+        "one; "
+        "remove them");
   Scene scene = with_files(asked, scene_folder);
   scene.device.model = DeviceModel::kinematic;
   const std::filesystem::path path = stroke_path(scene, scene_folder);

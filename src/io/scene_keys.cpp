@@ -11,7 +11,8 @@ std::vector<KeySection> all_scene_keys() {
   std::vector<KeySection> sections = all_keys([](KeyVisitor& visitor) {
     SceneFile scene;
     scene.stroke.emplace().table.emplace();
-    scene.ground.regions.emplace_back();
+    scene.ground.regions.emplace_back().k_s = 0.0;
+    scene.ground.layers.emplace_back();
     scene.ground.stones.emplace_back();
     scene.sources.emplace_back();
     describe_scene_file(visitor, scene);

@@ -22,9 +22,22 @@ struct SandRegion {
   std::vector<Eigen::Vector2d> points = {};          ///< m: corners of the polygon, along its outline
   double soft = 0.0;                                 ///< m: width of the band around the edge in which the
                                                      ///< sand's kind changes; 0: a sharp edge
-  double talus_angle = 30.0;                         ///< deg
+  // Its own numbers of the sand; none: as around it.
+  std::optional<double> talus_angle = {};     ///< deg
+  std::optional<double> friction_angle = {};  ///< deg, internal friction
+  std::optional<double> density = {};         ///< kg/m^3, of the bulk
+  std::optional<double> k_s = {};             ///< N, of the paper's force
 
   bool operator==(const SandRegion&) const = default;
+};
+
+/// Sand of another kind below a level plane, as the force knows it; none: the scene's own.
+struct SandLayer {
+  double top = 0.0;                           ///< m, height of that plane
+  std::optional<double> friction_angle = {};  ///< deg
+  std::optional<double> density = {};         ///< kg/m^3
+
+  bool operator==(const SandLayer&) const = default;
 };
 
 enum class StoneShape { sphere, ellipsoid, box, mesh };
@@ -48,6 +61,7 @@ struct StoneSettings {
 struct GroundSettings {
   std::optional<double> floor;      ///< m, height of a level floor; none: the sand is as deep as may be
   std::vector<SandRegion> regions;  ///< later ones lie over earlier ones
+  std::vector<SandLayer> layers;    ///< in any order
   std::vector<StoneSettings> stones;
   double stiffness = 1000.0;  ///< N/m, of floor and stones under the hand; 0: it does not feel them
 
@@ -58,7 +72,22 @@ struct GroundSettings {
     return std::any_of(stones.begin(), stones.end(),
                        [](const StoneSettings& stone) { return stone.shape == StoneShape::mesh; });
   }
-  bool empty() const { return !is_solid() && regions.empty(); }
+  /// Whether sand rests at other angles in places.
+  bool has_slopes() const {
+    return std::any_of(regions.begin(), regions.end(),
+                       [](const SandRegion& region) { return region.talus_angle; });
+  }
+  /// Whether the force of the contact differs by place (StrengthByPlace).
+  bool has_strengths() const {
+    return !layers.empty() || std::any_of(regions.begin(), regions.end(), [](const SandRegion& region) {
+      return region.friction_angle || region.density;
+    });
+  }
+  /// Whether the paper's force differs by place.
+  bool has_k_s() const {
+    return std::any_of(regions.begin(), regions.end(), [](const SandRegion& region) { return region.k_s; });
+  }
+  bool empty() const { return !is_solid() && regions.empty() && layers.empty(); }
 };
 
 }  // namespace sandstroke

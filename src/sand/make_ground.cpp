@@ -68,10 +68,11 @@ class GroundMaker {
         level_(settings.floor.value_or(-std::numeric_limits<double>::infinity())),
         talus_slope_(talus_slope) {
     for (const SandRegion& region : settings.regions) {
+      if (!region.talus_angle) continue;
       const RegionArea area(region);
       const Eigen::AlignedBox2d box = area.bounds();
       regions_.push_back(
-          {area, sandstroke::talus_slope(region.talus_angle), tiles_in(bed, box.min(), box.max())});
+          {area, sandstroke::talus_slope(*region.talus_angle), tiles_in(bed, box.min(), box.max())});
     }
     for (const StoneSettings& stone : settings.stones) {
       if (stone.shape == StoneShape::mesh && !stone.mesh)
@@ -213,13 +214,14 @@ class GroundMaker {
 
 std::shared_ptr<const Ground> make_ground(const BedGeometry& bed, const GroundSettings& settings,
                                           double talus_slope) {
-  if (settings.empty()) return nullptr;
+  if (!settings.is_solid() && !settings.has_slopes()) return nullptr;
   return GroundMaker(bed, settings, talus_slope).make();
 }
 
 GroundTiles most_tiles(const BedGeometry& bed, const GroundSettings& settings) {
   GroundTiles most;
   for (const SandRegion& region : settings.regions) {
+    if (!region.talus_angle) continue;
     const Eigen::AlignedBox2d box = RegionArea(region).bounds();
     most.slopes += tiles_of(tiles_in(bed, box.min(), box.max()));
   }

@@ -53,7 +53,7 @@ void ResistiveForce::lift() {
 
 Wrench ResistiveForce::feel(const HeightField& bed, const ToolFootprint& footprint,
                             const Eigen::Vector3d& tip, const Eigen::Vector3d& motion,
-                            const SandStrength& sand) {
+                            const SandStrength& sand, StrengthByPlace* places) {
   // An element that is now at r was at (old rotation) (new rotation)^T r.
   const Eigen::Matrix3d& rotation = elements_.rotation();
   SandBefore::Motion ways{motion / sand.yield_way, Eigen::Matrix3d::Zero(), sand.yield_way};
@@ -66,8 +66,9 @@ Wrench ResistiveForce::feel(const HeightField& bed, const ToolFootprint& footpri
     lift();
     return {};
   }
+  if (places) places->look(elements_, tip);
   return resistive_wrench(
-      {elements_, before_, ways_.data(), tip.z(), ways, resistance(sand), sand.tool_friction});
+      {elements_, before_, ways_.data(), tip.z(), ways, resistance(sand), sand.tool_friction, places});
 }
 
 }  // namespace sandstroke

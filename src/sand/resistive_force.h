@@ -8,6 +8,8 @@
 
 namespace sandstroke {
 
+class StrengthByPlace;
+
 /// Sands by name. dry: typical. quikrete: as Agarwal, Goldman and Kamrin (2023) measured it.
 enum class SandPreset { dry, quikrete };
 
@@ -17,6 +19,7 @@ struct SandStrength {
   double density = 1560.0;       ///< kg/m^3, of the bulk
   double tool_friction = 0.4;    ///< mu_s, of the tool's surface
   double yield_way = 0.001;      ///< m that the tool moves until the sand resists fully
+  double blend = 0.0;  ///< m around a border to other sand in which strength changes; 0: the tool's width
   SandPreset preset = SandPreset::dry;
 };
 
@@ -76,7 +79,10 @@ struct VolumeBelow {
   double area = 0.0;                    ///< m^2, growth of the volume per depth that the tool sinks
 };
 /// For a plane that lies `height` [m] above the tip, and has this slope. Computed by the divergence theorem.
-VolumeBelow volume_below(const ToolElements& elements, double height, const Eigen::Vector2d& slope);
+/// places: where it is not null, every column counts as the sand's pressure below it, as a depth in the
+/// scene's own sand; it has looked at the elements, with the tip at tip_height [m].
+VolumeBelow volume_below(const ToolElements& elements, double height, const Eigen::Vector2d& slope,
+                         const StrengthByPlace* places = nullptr, double tip_height = 0.0);
 
 /// Resistive force theory over the surface that touches sand. The theory uses a direction of motion and no
 /// speed. The direction here is each element's displacement through the sand since it met the sand, in units
@@ -100,9 +106,10 @@ class ResistiveForce {
   }
 
   /// Returns the wrench after the tool has moved by `motion` [m] to where it displaced last, with its tip at
-  /// `tip` [m]. The footprint's heights are the bed's.
+  /// `tip` [m]. The footprint's heights are the bed's. places: where that sand is of other kinds; null:
+  /// nowhere.
   Wrench feel(const HeightField& bed, const ToolFootprint& footprint, const Eigen::Vector3d& tip,
-              const Eigen::Vector3d& motion, const SandStrength& sand);
+              const Eigen::Vector3d& motion, const SandStrength& sand, StrengthByPlace* places = nullptr);
   /// Tells that the tool touches nothing: forgets the elements' displacements.
   void lift();
 

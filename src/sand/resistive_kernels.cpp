@@ -7,6 +7,7 @@
 
 #include "rules/force.h"
 #include "sand/lanes-inl.h"
+#include "sand/sand_pressure-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sandstroke {
@@ -83,8 +84,9 @@ constexpr double fade = 0.02;
 class WrenchSum {
  public:
   HWY_INLINE WrenchSum() {}  // an implicit one would not have the instruction set's attributes
-  /// whole: an element's force once it has fully yielded, `size` [N/m] per depth.
-  HWY_INLINE void add(int index, const Vector& r, const Vector& force, const Vector& whole, V size, V depth) {
+  /// whole: an element's force once it has fully yielded, `size` [N/m] per depth in the scene's own sand.
+  HWY_INLINE void add(int index, const Vector& r, const Vector& force, const Vector& whole, V size,
+                      const PressureLanes& pressure) {
     force_x_.add(index, force.x);
     force_y_.add(index, force.y);
     force_z_.add(index, force.z);
@@ -94,8 +96,8 @@ class WrenchSum {
     whole_x_.add(index, whole.x);
     whole_y_.add(index, whole.y);
     whole_z_.add(index, whole.z);
-    growth_.add(index, size);
-    strength_.add(index, size * Max(depth, hn::Zero(d)));
+    growth_.add(index, size * (pressure.growth + hn::Abs(pressure.change)));
+    strength_.add(index, size * Max(pressure.depth, hn::Zero(d)));
   }
   Wrench total(double yield_way) const {
     Wrench wrench;
@@ -156,7 +158,7 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
             near = hn::GatherIndex(d, before.heights(), hn::Load(di, before.side_of() + i));
     const V below = far + rise + Min(sideways, one) * (near - far - rise) - (tip_z + r.z);
     const Mask in_sand = hn::And(below > zero, near > all(-1e300));
-    const V depth = where(in_sand, below);
+    const PressureLanes pressure = pressure_at(tick.places, i, tip_z + r.z, where(in_sand, below));
     way = way.times(where(in_sand, Min(per_length, one)));
     hn::Store(way.x, d, ways_x + i);
     hn::Store(way.y, d, ways_y + i);
@@ -167,23 +169,26 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
     if (hn::AllFalse(d, area > zero)) continue;
     const Vector alpha = stress(n, u, all(tick.tool_friction));
     const V size = Sqrt(alpha.dot(alpha)) * area;
-    const V pushes = area * depth;
-    sum.add(index, r, alpha.times(pushes * mobilised), alpha.times(pushes), size, depth);
+    const V pushes = area * pressure.depth;
+    sum.add(index, r, alpha.times(pushes * mobilised), alpha.times(pushes), size, pressure);
   }
   return sum.total(tick.motion.yield_way);
 }
 
-VolumeBelow VolumeBelowPlane(const ToolElements& e, double height, const Eigen::Vector2d& slope) {
-  const V slope_x = all(slope.x()), slope_y = all(slope.y()), height0 = all(height), zero = hn::Zero(d);
+VolumeBelow VolumeBelowPlane(const ToolElements& e, double height, const Eigen::Vector2d& slope,
+                             const StrengthByPlace* places, double tip_height) {
+  const V slope_x = all(slope.x()), slope_y = all(slope.y()), height0 = all(height), zero = hn::Zero(d),
+          tip_z = all(tip_height);
   LaneSum volume, moment_x, moment_y, area;
   for (std::size_t i = 0; i < e.size(); i += lanes) {
     const int index = static_cast<int>(i);
     const V x = hn::Load(d, e.x() + i), y = hn::Load(d, e.y() + i);
-    const V depth = height0 + slope_x * x + slope_y * y - hn::Load(d, e.z() + i);
+    const V z = hn::Load(d, e.z() + i), depth = height0 + slope_x * x + slope_y * y - z;
+    const PressureLanes pressure = pressure_at(places, i, tip_z + z, Max(depth, zero));
     // The column from each element up to the plane.
     const V level = where(depth > zero, Neg(hn::Load(d, e.normal_z() + i)) * hn::Load(d, e.area() + i));
-    const V above = level * depth;
-    area.add(index, level);
+    const V above = level * pressure.depth;
+    area.add(index, level * (pressure.growth + pressure.change));
     volume.add(index, above);
     moment_x.add(index, x * above);
     moment_y.add(index, y * above);
@@ -209,8 +214,9 @@ HWY_EXPORT(StressOf);
 HWY_EXPORT(VolumeBelowPlane);
 
 Wrench resistive_wrench(const ResistiveTick& tick) { return HWY_DYNAMIC_DISPATCH(ResistiveWrench)(tick); }
-VolumeBelow volume_below(const ToolElements& elements, double height, const Eigen::Vector2d& slope) {
-  return HWY_DYNAMIC_DISPATCH(VolumeBelowPlane)(elements, height, slope);
+VolumeBelow volume_below(const ToolElements& elements, double height, const Eigen::Vector2d& slope,
+                         const StrengthByPlace* places, double tip_height) {
+  return HWY_DYNAMIC_DISPATCH(VolumeBelowPlane)(elements, height, slope, places, tip_height);
 }
 Eigen::Vector3d resistive_stress(const Eigen::Vector3d& normal, const Eigen::Vector3d& motion,
                                  double tool_friction) {

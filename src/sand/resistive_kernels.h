@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sand/resistive_force.h"
+#include "sand/strength_by_place.h"
 
 namespace sandstroke {
 
@@ -14,6 +15,7 @@ struct ResistiveTick {
   SandBefore::Motion motion;
   double resistance;  ///< N/m^3, xi
   double tool_friction;
+  const StrengthByPlace* places;  ///< that looked at these elements; null: sand is the same everywhere
 };
 Wrench resistive_wrench(const ResistiveTick& tick);
 

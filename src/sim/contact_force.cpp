@@ -7,7 +7,9 @@
 
 #include "rules/force.h"
 #include "sand/sand_plane.h"
+#include "sand/strength_by_place.h"
 #include "sim/elastic_wrench.h"
+#include "sim/scene_ground.h"
 #include "tool/tool_surface.h"
 
 namespace sandstroke {
@@ -18,6 +20,12 @@ double farthest_from_tip(const TriangleMesh& surface) {
   double most = 0.0;
   for (const Eigen::Vector3d& vertex : surface.vertices) most = std::max(most, length_of(vertex));
   return most;
+}
+
+/// How the scene's sand differs by place; none: it is the same everywhere.
+std::optional<StrengthByPlace> strength_of(const Scene& scene) {
+  if (!scene.ground.has_strengths()) return {};
+  return StrengthByPlace(scene.ground, scene.strength, strength_blend(scene));
 }
 
 /// The force that a law asks for, as the tool feels it: by way of an ElasticWrench. The scene's device gives
@@ -96,6 +104,7 @@ class RftForce : public ElasticForce {
   RftForce(const Scene& scene, double cell_size)
       : ElasticForce(scene),
         sand_(scene.strength),
+        places_(strength_of(scene)),
         resistive_(tool_surface(scene.tool), cell_size, scene.relaxation.talus_angle) {
     ElasticForce::turn(own_rotation(scene.tool));
   }
@@ -114,10 +123,12 @@ class RftForce : public ElasticForce {
  private:
   void turn_surface(const Eigen::Matrix3d& rotation) override { resistive_.turn(rotation); }
   Wrench law(const ToolInSand& touch) override {
-    return resistive_.feel(touch.bed, touch.tool.footprint(), touch.tip, touch.motion, sand_);
+    return resistive_.feel(touch.bed, touch.tool.footprint(), touch.tip, touch.motion, sand_,
+                           places_ ? &*places_ : nullptr);
   }
 
   SandStrength sand_;
+  std::optional<StrengthByPlace> places_;
   ResistiveForce resistive_;
 };
 
@@ -125,8 +136,11 @@ class RftForce : public ElasticForce {
 class ArchimedesForce : public ElasticForce {
  public:
   ArchimedesForce(const Scene& scene, double cell_size)
-      : ElasticForce(scene), sand_(scene.strength), elements_(tool_surface(scene.tool), cell_size) {
-    if (scene.tool.shape == ToolShape::sphere) sphere_radius_ = scene.tool.radius;
+      : ElasticForce(scene),
+        sand_(scene.strength),
+        places_(strength_of(scene)),
+        elements_(tool_surface(scene.tool), cell_size) {
+    if (scene.tool.shape == ToolShape::sphere && !places_) sphere_radius_ = scene.tool.radius;
     ElasticForce::turn(own_rotation(scene.tool));
   }
   std::unique_ptr<ToolForce> copy() const override { return std::make_unique<ArchimedesForce>(*this); }
@@ -145,6 +159,7 @@ class ArchimedesForce : public ElasticForce {
   Wrench law(const ToolInSand& touch) override {
     SandPlane plane =
         fit_sand_plane(touch.bed, touch.tip.x(), touch.tip.y(), sphere_radius_.value_or(touch.tool.reach()));
+    if (places_) places_->look(elements_, touch.tip);
     if (std::isnan(plane.height)) {
       sunk_ = 0.0;
       return {};
@@ -159,12 +174,15 @@ class ArchimedesForce : public ElasticForce {
     wrench.strength = wrench.whole = per_volume * below.volume;
     wrench.force.z() = wrench.strength * sunk_;
     wrench.torque = per_volume * sunk_ * Eigen::Vector3d(below.moment.y(), -below.moment.x(), 0.0);
-    wrench.stiffness = per_volume * (below.area + below.volume / yield);  // it grows with volume and way
+    // It grows with volume and way; below a border to softer sand the volume may shrink.
+    wrench.stiffness = per_volume * (std::abs(below.area) + below.volume / yield);
     return wrench;
   }
 
   VolumeBelow volume_in_sand(const Eigen::Vector3d& tip, const SandPlane& plane) const {
-    if (!sphere_radius_) return volume_below(elements_, plane.height - tip.z(), plane.slope);
+    if (!sphere_radius_)
+      return volume_below(elements_, plane.height - tip.z(), plane.slope, places_ ? &*places_ : nullptr,
+                          tip.z());
     const double R = *sphere_radius_, depth = std::clamp(plane.height - tip.z(), 0.0, 2.0 * R);
     return {std::numbers::pi * depth * depth * (R - depth / 3.0),
             {0.0, 0.0},
@@ -172,7 +190,8 @@ class ArchimedesForce : public ElasticForce {
   }
 
   SandStrength sand_;
-  std::optional<double> sphere_radius_;  // m
+  std::optional<StrengthByPlace> places_;
+  std::optional<double> sphere_radius_;  // m, where a formula has its volume
   ToolElements elements_;
   double sunk_ = 0.0;  // yield ways, 0 to 1
 };

@@ -8,7 +8,9 @@
 #include "core/angle.h"
 #include "core/elementary.h"
 #include "haptics/sand_force.h"
+#include "sand/region_values.h"
 #include "sim/floor_force.h"
+#include "sim/scene_ground.h"
 #include "tool/tool_surface.h"
 
 namespace sandstroke {
@@ -17,12 +19,16 @@ namespace {
 /// Equations 1 and 3, of depth and velocity.
 class DepthForce : public DeviceForce {
  public:
-  explicit DepthForce(const ForceSettings& settings) : settings_(settings) {}
+  explicit DepthForce(const Scene& scene) : settings_(scene.force) {
+    if (!scene.ground.has_k_s()) return;
+    k_s_ = RegionValues(
+        scene.ground.regions, [](const SandRegion& region) { return region.k_s; }, strength_blend(scene));
+  }
 
   Eigen::Vector3d feel(TickRecord& record, const SimulatedDevice& device,
                        DeviceResult& result) const override {
-    const SandForce force =
-        force_on_device(record.depth, device, state_of(record.hand), state_of(record.next), settings_);
+    const SandForce force = force_on_device(record.depth, device, state_of(record.hand),
+                                            state_of(record.next), here(record, device.settings()));
     record.repulse_force = {0.0, 0.0, force.repulse};
     record.drag_force = force.drag;
     record.saturated = force.saturated;
@@ -34,11 +40,11 @@ class DepthForce : public DeviceForce {
   }
 
   FeltSand felt_sand(const TickRecord& record, const DeviceSettings& device) const override {
-    return sandstroke::felt_sand(record.depth, record.repulse_force.z(), device.scale, settings_);
+    return sandstroke::felt_sand(record.depth, record.repulse_force.z(), device.scale, here(record, device));
   }
 
   double stored(const TickRecord& record, const DeviceSettings& device) const override {
-    return plunge_work(record.depth, device.max_force, settings_) / device.scale;
+    return plunge_work(record.depth, device.max_force, here(record, device)) / device.scale;
   }
 
   Remedy remedy(double max_drag_force) const override {
@@ -50,8 +56,31 @@ class DepthForce : public DeviceForce {
   std::vector<std::string> scales() const override { return {"force.k_s", "force.k_c", "force.k_f"}; }
 
  private:
+  /// The constants of the sand at the tip.
+  ForceSettings here(const TickRecord& record, const DeviceSettings& device) const {
+    ForceSettings settings = settings_;
+    if (!k_s_.empty())
+      settings.k_s = k_s_.at(tip_of(device, record.device_position).head<2>(), settings_.k_s);
+    return settings;
+  }
+
   ForceSettings settings_;
+  RegionValues k_s_;
 };
+
+/// Each angle of internal friction [deg] of the scene, by its key.
+std::vector<std::pair<std::string, double>> friction_angles_of(const Scene& scene) {
+  std::vector<std::pair<std::string, double>> angles = {
+      {"force.friction_angle", scene.strength.friction_angle}};
+  const auto add = [&](const char* list, const auto& kinds) {
+    for (std::size_t i = 0; i < kinds.size(); ++i)
+      if (kinds[i].friction_angle)
+        angles.emplace_back(fmt::format("{}.{}.friction_angle", list, i + 1), *kinds[i].friction_angle);
+  };
+  add("sand.region", scene.ground.regions);
+  add("sand.layer", scene.ground.layers);
+  return angles;
+}
 
 /// The wrench of the sand on the tool. Its drag is taken not to grow with speed.
 class ContactWrench : public DeviceForce {
@@ -86,13 +115,15 @@ class ContactWrench : public DeviceForce {
   /// The theory holds for tools up to 0.4 sqrt(g L) (Agarwal et al. 2023), L the tool's width, and for the
   /// sand that it was fitted for.
   std::string theory_warning(const Scene& scene, double fastest) const override {
-    const SandStrength& sand = scene.strength;
-    const double friction = elementary::tan(to_radians(sand.friction_angle));
-    if (friction < 0.3 || friction > 0.9)
+    for (const auto& [key, angle] : friction_angles_of(scene)) {
+      const double friction = elementary::tan(to_radians(angle));
+      if (friction >= 0.3 && friction <= 0.9) continue;
       return fmt::format(
-          "force.friction_angle = {} deg is outside 16.7 to 42 deg, for which the force's constants were "
-          "fitted; its forces are a guess",
-          sand.friction_angle);
+          "{} = {} deg is outside 16.7 to 42 deg, for which the force's constants were fitted; its forces "
+          "are "
+          "a guess",
+          key, angle);
+    }
     constexpr double gravity = 9.81, most = 0.4;
     const double length = 2.0 * tool_reach(scene.tool), froude = fastest / std::sqrt(gravity * length);
     if (froude <= most) return "";
@@ -123,7 +154,7 @@ class PluginWrench : public ContactWrench {
 std::unique_ptr<DeviceForce> make_law(const Scene& scene) {
   if (!scene.plugin_laws.force.empty()) return std::make_unique<PluginWrench>();
   if (is_contact_law(scene)) return std::make_unique<ContactWrench>();
-  return std::make_unique<DepthForce>(scene.force);
+  return std::make_unique<DepthForce>(scene);
 }
 
 }  // namespace

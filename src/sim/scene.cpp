@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/machine.h"
+#include "sim/check_ground.h"
 #include "sim/check_sources.h"
 #include "sim/scene_ground.h"
 #include "sim/tool_fit.h"
@@ -108,8 +109,16 @@ void describe_density(KeyVisitor& v, SandStrength& sand) {
            "bulk density of the sand, which a [[source]] needs with any force.law");
 }
 
+void describe_blend(KeyVisitor& v, SandStrength& sand, bool counts) {
+  if (!v.reads() && !counts) return;
+  v.number("blend", sand.blend, not_negative, "m",
+           "width around the border of a [[sand.region]] or [[sand.layer]] in which the sand's strength "
+           "changes; 0: the width of the tool's narrowest part");
+}
+
 /// pours: the scene has sources, which need the sand's density.
-void describe_force(KeyVisitor& v, ForceSettings& force, SandStrength& sand, bool pours) {
+void describe_force(KeyVisitor& v, ForceSettings& force, SandStrength& sand, const GroundSettings& ground,
+                    bool pours) {
   v.section("force", "the force of the sand on the device");
   choose(v, "law", force.law, {"paper", "rft", "archimedes"},
          "the published law of depth and velocity; resistive force theory over the tool's surface, in "
@@ -119,19 +128,21 @@ void describe_force(KeyVisitor& v, ForceSettings& force, SandStrength& sand, boo
     v.number("k_c", force.k_c, positive, "1/m", "growth of the repulse force with depth");
     v.number("k_f", force.k_f, not_negative, "s/m", "drag k_f velocity x repulse force");
     choose(v, "drag", force.drag, {"horizontal", "full"}, "part of the velocity that causes drag");
+    describe_blend(v, sand, ground.has_k_s());
     if (pours) describe_density(v, sand);
     return;
   }
   choose(v, "sand", sand.preset, {"dry", "quikrete"},
          "sets friction_angle and density: typical dry sand, or Quikrete (Agarwal et al. 2023)");
   if (v.reads()) apply_sand_preset(sand);
-  v.number("friction_angle", sand.friction_angle, {5.0, 60.0, false}, "deg",
+  v.number("friction_angle", sand.friction_angle, friction_angles, "deg",
            "angle of internal friction of the sand, from a shear test");
   describe_density(v, sand);
   if (force.law == ForceLaw::rft)
     v.number("tool_friction", sand.tool_friction, not_negative, "", "friction of sand on the tool's surface");
   v.number("yield", sand.yield_way, {1e-6, 1.0, false}, "m",
            "distance that the tool moves until the sand resists fully, or until its resistance has reversed");
+  describe_blend(v, sand, ground.has_strengths());
 }
 
 void describe_relaxation(KeyVisitor& v, RelaxationSettings& r) {
@@ -354,7 +365,7 @@ void describe_scene(KeyVisitor& v, Scene& scene) {
   show_tables(v, "source", scene.sources, "a nozzle that pours sand onto the bed, or takes some from it",
               describe_source);
 
-  describe_force(v, scene.force, scene.strength, !scene.sources.empty());
+  describe_force(v, scene.force, scene.strength, scene.ground, !scene.sources.empty());
 
   describe_relaxation(v, scene.relaxation);
   describe_device(v, scene.device);

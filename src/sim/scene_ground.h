@@ -9,12 +9,12 @@ namespace sandstroke {
 
 /// Shows bed.floor; the visitor is in the section bed.
 void describe_floor(KeyVisitor& visitor, GroundSettings& ground);
-/// Shows [[sand.region]], [[stone]] and [ground].
+/// Shows [[sand.region]], [[sand.layer]], [[stone]] and [ground].
 void describe_ground(KeyVisitor& visitor, GroundSettings& ground);
 
-/// What no single key of them can tell: that they are where the bed is, and go with its laws. A mesh that was
-/// not read is not looked at. Error: input, naming the keys; `name` is the scene's file.
-void check_ground(const Scene& scene, const std::string& name);
+/// The width of the band around a border in which the force goes over to another sand [m]: force.blend. A
+/// tool's mesh must have been read.
+double strength_blend(const Scene& scene);
 
 /// About what the ground takes [bytes], with the sand that it lifts.
 double memory_of_ground(const Scene& scene);

@@ -87,6 +87,8 @@ std::optional<SharedRunResult> run_shared(const std::vector<Scene>& scenes, cons
   if (scene.device.model == DeviceModel::kinematic) {
     for (const Scene& felt : scenes) feelers.emplace_back(felt, second.has_value());
     scene.force.k_s = 0.0;  // the shared run feels no force, so no force can end it
+    for (SandRegion& region : scene.ground.regions)
+      if (region.k_s) region.k_s = 0.0;
   }
   Observers observers;
   for (Feeler& feeler : feelers) observers.push_back(&feeler);

@@ -98,12 +98,21 @@ TEST(SceneToml, EveryKeyOfTheTableIsReadWithItsDefaultJustWhereItSaysThatItAppli
                                 : row.name == "stone.1.centre"       ? "[0.0, 0.0, 0.0]"
                                 : row.name == "source.1.at"          ? "[0.0, 0.0, 0.0]"
                                 : row.name == "sand.region.1.points" ? "[[0, 0], [1, 0], [0, 1]]"
+                                : row.name == "sand.layer.1.top"     ? "-0.02"
+                                : row.key() == "friction_angle"      ? "30"
                                 : row.value.empty()                  ? "1"
                                                                      : row.value;
       const auto reads = [&](const std::string& with) {
         std::vector<std::string> settings = {row.name + "=" + value};
         if (row.name.starts_with("stone.")) settings.insert(settings.begin(), "stone=[{centre = [0, 0, 0]}]");
-        if (row.name.starts_with("sand."))
+        if (row.name.starts_with("sand.layer.")) {
+          settings.insert(settings.begin(), "sand.layer=[{top = -0.01, density = 1700}]");
+          settings.push_back("force.law=rft");
+        }
+        if (row.name == "sand.region.1.friction_angle" || row.name == "sand.region.1.density")
+          settings.push_back("force.law=rft");
+        if (row.name == "force.blend") settings.insert(settings.begin(), "sand.region=[{k_s = 500}]");
+        if (row.name.starts_with("sand.region."))
           settings.insert(settings.begin(), "sand.region=[{talus_angle = 30}]");
         if (row.name.starts_with("ground.")) settings.push_back("bed.floor=0");
         if (with == "stone.1.shape=mesh" && row.key() != "file") settings.push_back("stone.1.file=x.stl");
@@ -297,7 +306,10 @@ TEST(SceneToml, RefusesStonesAndRegionsThatCannotBeMeant) {
   EXPECT_EQ(said("[[sand]]\nx = 3\n"),
             "scene.toml:1: sand.region is not found: 'sand' is a list of tables; write [sand]");
   EXPECT_EQ(said("[sand]\nregoin = 3\n"), "scene.toml:2: unknown key sand.regoin; did you mean sand.region?");
-  EXPECT_EQ(said("[[sand.region]]\n"), "scene.toml:1: sand.region.1.talus_angle is missing; add it");
+  EXPECT_EQ(
+      said("[[sand.region]]\n"),
+      "scene.toml: sand.region.1 says nothing of its sand; give it a talus_angle, friction_angle, density or "
+      "k_s");
   EXPECT_EQ(said(two_stones + "size = [1.0, 1.0, 1.0]\n"),
             "scene.toml:10: stone.2.size applies only where stone.2.shape is ellipsoid or box; remove it, or "
             "change that setting");
