@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/progress.h"
-#include "io/map_means.h"
+#include "io/map_fit.h"
 
 namespace sandstroke {
 namespace {
@@ -66,42 +65,6 @@ struct MapValues {
   }
 };
 
-/// Where a map lies on a bed.
-struct MapFit {
-  Eigen::Vector2d size;  ///< of the map on the bed [m]
-  double off = 0.0;      ///< how much it is stretched to fill the bed, as a fraction
-};
-
-/// Error: input, unless the map, as the scene scales it, is as large as the bed to half a cell of either.
-MapFit fit_of(const MapLayout& map, const BedSettings& bed, const std::string& name) {
-  const Eigen::Vector2d cells(map.cols, map.rows), wanted(bed.width, bed.depth);
-  const double scale = bed.surface.scale;
-  // Without a size of its own the map is as wide as the bed.
-  const Eigen::Vector2d own = map.cell ? Eigen::Vector2d(cells.cwiseProduct(*map.cell))
-                                       : Eigen::Vector2d(cells * (bed.width / map.cols));
-  const Eigen::Vector2d size = map.cell ? Eigen::Vector2d(scale * own) : own;
-  const auto fits = [&](const Eigen::Vector2d& placed) {
-    const double tolerance = 0.5 * std::min(bed.cell_size(), placed.cwiseQuotient(cells).minCoeff());
-    return ((placed - wanted).array().abs() <= tolerance).all();
-  };
-  if (fits(size)) return {size, (size.cwiseQuotient(wanted).array() - 1.0).abs().maxCoeff()};
-
-  const double right_scale = bed.width / own.x();
-  const Eigen::Vector2d right_size = right_scale * own;
-  if (!map.cell || !fits(right_size))
-    throw_input_error(
-        "{}: has {} x {} cells{}, which a bed of {} m by {} m cannot have without distortion; cut the map, "
-        "or set bed.size = [{}, {:.6g}]{} and bed.cells so that cells are square",
-        name, map.cols, map.rows,
-        map.cell ? fmt::format(" of {:g} x {:g} m", map.cell->x(), map.cell->y()) : "", bed.width, bed.depth,
-        bed.width, right_size.y(), map.cell ? fmt::format(", bed.surface.scale = {:.9g}", right_scale) : "");
-  throw_input_error(
-      "{}: is {:g} m by {:g} m{}, but the bed is {} m by {} m; set bed.surface.scale = {:.9g}, which scales "
-      "lengths and heights, or bed.size = [{:g}, {:g}]",
-      name, size.x(), size.y(), scale == 1.0 ? "" : fmt::format(" at bed.surface.scale = {}", scale),
-      bed.width, bed.depth, right_scale, size.x(), size.y());
-}
-
 /// The heights that values stand for: scaled, or stretched so that two of them come to lie at low and high.
 struct HeightRule {
   double scale = 1.0, low = 0.0, high = 0.0, first = 0.0, last = 0.0;
@@ -144,15 +107,7 @@ void check_settings(const MapLayout& map, const BedSettings& bed, const std::str
 
 void say(const MapLayout& map, const MapFit& fit, const MapValues& values, const HeightRule& rule,
          const BedSettings& bed, const std::string& name) {
-  const bool same_cells = map.rows == bed.rows && map.cols == bed.cols;
-  const bool as_it_is = same_cells && !(map.cell && bed.surface.scale != 1.0) && fit.off < 1e-9;
-  std::string text = fmt::format("{} x {} cells", map.cols, map.rows);
-  if (map.cell) text += fmt::format(" of {:.4g} m", map.cell->x());
-  if (!as_it_is) {
-    text += fmt::format(" fitted to {} x {} cells of {:.4g} m", bed.cols, bed.rows, bed.cell_size());
-    if (map.cell && bed.surface.scale != 1.0) text += fmt::format(" at scale {:g}", bed.surface.scale);
-    if (fit.off >= 1e-9) text += fmt::format(", stretched by {:.2g} %", 100.0 * fit.off);
-  }
+  std::string text = fit.text;
   const bool other_heights = !map.gray && (rule.stretched || rule.scale != 1.0);
   if (other_heights)
     text += fmt::format("; heights {:.4g} to {:.4g} m became {:.4g} to {:.4g} m", values.lowest.value,
@@ -163,27 +118,8 @@ void say(const MapLayout& map, const MapFit& fit, const MapValues& values, const
                         bed.surface.nodata ? fmt::format(" were set to {:g} m", *bed.surface.nodata)
                                            : " lie beyond the wall");
   if (!map.from_top) text += "; its first row is at the smallest y";
-  if (!as_it_is || other_heights || values.missing > 0 || !map.from_top) spdlog::info("{}: {}", name, text);
-}
-
-MapValues read_lines(HeightMap& map, const std::string& name, MapMeans& means) {
-  MapValues values;
-  std::vector<double> line(static_cast<std::size_t>(map.line_length()));
-  Progress progress("read " + name);
-  for (int i = 0; i < map.lines(); ++i) {
-    map.next_line(line.data());
-    means.add(line, values.look_at(line));
-    progress.update((i + 1.0) / map.lines());
-  }
-  return values;
-}
-
-/// Turns sums over lines, in the order of the file, into rows and columns of a bed.
-HeightGrid upright(const HeightGrid& lines, const MapLayout& map) {
-  HeightGrid grid = lines;
-  if (map.by_columns) grid = lines.transpose();
-  if (map.from_top) grid = grid.colwise().reverse().eval();
-  return grid;
+  if (!fit.as_it_is || other_heights || values.missing > 0 || !map.from_top)
+    spdlog::info("{}: {}", name, text);
 }
 
 }  // namespace
@@ -201,36 +137,36 @@ void check_heights(double lowest, double highest, const BedSettings& bed, const 
           : "");
 }
 
-void check_no_gaps(HeightGrid& heights, const BedSettings& bed, const std::string& name,
-                   const std::string& way_out) {
+void check_no_gaps(HeightGrid& values, const BedSettings& bed, const std::string& name,
+                   const std::string& way_out, const char* value, double beyond_wall) {
   const BedGeometry cells(bed.rows, bed.cols, bed.cell_size(), bed.shape);
   const BedGeometry circle(bed.rows, bed.cols, bed.cell_size(), BedShape::round);
   std::int64_t gaps = 0, in_circle = 0;
   for (int row = 0; row < bed.rows; ++row)
     for (int col = 0; col < bed.cols; ++col) {
-      if (!std::isnan(heights(row, col))) continue;
-      if (!cells.has_sand(row, col)) heights(row, col) = 0.0;
+      if (!std::isnan(values(row, col))) continue;
+      if (!cells.has_sand(row, col)) values(row, col) = beyond_wall;
       gaps += cells.has_sand(row, col);
       in_circle += circle.has_sand(row, col);
     }
   if (gaps == 0) return;
-  throw_input_error("{}: {} of the bed's {} cells have no height (no data, or not a number); {}{}", name,
-                    gaps, static_cast<std::int64_t>(bed.rows) * bed.cols, way_out,
+  throw_input_error("{}: {} of the bed's {} cells have no {} (no data, or not a number); {}{}", name, gaps,
+                    static_cast<std::int64_t>(bed.rows) * bed.cols, value, way_out,
                     in_circle == 0 ? ", or set bed.shape = \"round\", whose wall leaves them all out" : "");
 }
 
 HeightGrid heights_on_bed(HeightMap& map, const BedSettings& bed, const std::string& name) {
   const MapLayout& layout = map.layout();
   check_settings(layout, bed, name);
-  const MapFit fit = fit_of(layout, bed, name);
-  MapMeans means(map.lines(), map.line_length(), layout.by_columns ? bed.cols : bed.rows,
-                 layout.by_columns ? bed.rows : bed.cols);
-  const MapValues values = read_lines(map, name, means);
+  const MapFit fit = fit_on_bed(layout, bed, bed.surface.scale, name);
+  MapValues values;
+  const MapMeans means = means_on_bed(map, bed, MapMeans::Way::sums, name,
+                                      [&](const std::vector<double>& line) { return values.look_at(line); });
   values.check(name);
   const HeightRule rule = rule_of(layout, values, bed.surface);
   check_heights(rule.height(values.lowest.value), rule.height(values.highest.value), bed, name);
 
-  HeightGrid heights = upright(means.sums(), layout);
+  HeightGrid heights = upright(means.means(), layout);
   if (values.missing == 0) {
     heights = heights.unaryExpr([&](double sum) { return rule.height(sum); });
   } else {

@@ -16,9 +16,10 @@ HeightGrid heights_on_bed(HeightMap& map, const BedSettings& bed, const std::str
 /// Error: input, if a height [m] is beyond all that a bed of this size has. `what` names the heights.
 void check_heights(double lowest, double highest, const BedSettings& bed, const std::string& what);
 
-/// Refuses cells without a height, which is not-a-number, unless they are beyond the bed's wall: these become
-/// 0. `way_out` ends the sentence. Error: input, with their number.
-void check_no_gaps(HeightGrid& heights, const BedSettings& bed, const std::string& name,
-                   const std::string& way_out);
+/// Refuses cells without a value, which is not-a-number, unless they are beyond the bed's wall: these become
+/// `beyond_wall`. `way_out` ends the sentence, and `value` is the word for one. Error: input, with their
+/// number.
+void check_no_gaps(HeightGrid& values, const BedSettings& bed, const std::string& name,
+                   const std::string& way_out, const char* value = "height", double beyond_wall = 0.0);
 
 }  // namespace sandstroke

@@ -13,6 +13,7 @@
 #include "io/bed_writer.h"
 #include "io/input_kind.h"
 #include "io/run_file.h"
+#include "io/sand_map_file.h"
 #include "io/scene_toml.h"
 #include "sand/instruction_set.h"
 #include "sim/plugin_laws.h"
@@ -151,6 +152,8 @@ void RunWriter::begin(const Simulation& simulation, const ViewSettings& view, co
   file_.attribute(provenance, "instruction_set", instruction_set());
   file_.attribute(provenance, "scene_hash", content_hash(scene));
   file_.attribute(provenance, "stroke_hash", stroke_hash);
+  if (const std::string hash = sand_map_hash(simulation.scene().ground); !hash.empty())
+    file_.attribute(provenance, sand_map_attribute, hash);
   const PluginLaws* const laws = simulation.scene().plugin_laws.laws.get();
   if (laws && !laws->hash.empty()) file_.attribute(provenance, "plugin_hash", laws->hash);
   if (!scene_file.empty()) file_.attribute(provenance, "scene_file", scene_file);

@@ -11,6 +11,7 @@ std::vector<KeySection> all_scene_keys() {
   std::vector<KeySection> sections = all_keys([](KeyVisitor& visitor) {
     SceneFile scene;
     scene.stroke.emplace().table.emplace();
+    scene.ground.map.emplace();
     scene.ground.regions.emplace_back().k_s = 0.0;
     scene.ground.layers.emplace_back();
     scene.ground.stones.emplace_back();

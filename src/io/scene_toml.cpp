@@ -152,6 +152,7 @@ SceneFile load_scene(const std::filesystem::path& path, const std::vector<std::s
     const std::filesystem::path folder = folder_of(path);
     find_given_file(scene.bed.surface.file, "bed.surface.file", overrides, folder);
     find_given_file(scene.tool.file, "tool.file", overrides, folder);
+    if (scene.ground.map) find_given_file(scene.ground.map->file, "sand.map.file", overrides, folder);
     for (std::size_t i = 0; i < scene.ground.stones.size(); ++i)
       find_given_file(scene.ground.stones[i].file, fmt::format("stone.{}.file", i + 1), overrides, folder);
     find_given_file(scene.plugin_laws.plugin, "model.plugin", overrides, folder);
@@ -211,6 +212,7 @@ std::vector<std::filesystem::path> input_files(const Scene& scene, const std::fi
     files = sample_files(stroke_path(scene, folder), scene.stroke->table.value_or(TableSettings{}));
   if (scene.bed.surface.kind == SurfaceKind::file) files.push_back(folder / scene.bed.surface.file);
   if (scene.tool.shape == ToolShape::mesh) files.push_back(folder / scene.tool.file);
+  if (scene.ground.map) files.push_back(folder / scene.ground.map->file);
   for (const StoneSettings& stone : scene.ground.stones)
     if (stone.shape == StoneShape::mesh) files.push_back(folder / stone.file);
   if (!scene.plugin_laws.plugin.empty()) files.push_back(folder / scene.plugin_laws.plugin);

@@ -26,6 +26,7 @@
 #include "io/run_file.h"
 #include "io/run_state.h"
 #include "io/run_writer.h"
+#include "io/sand_map_file.h"
 #include "io/scene_toml.h"
 #include "io/source_path.h"
 #include "io/stroke_file.h"
@@ -110,7 +111,7 @@ std::string scene_file_entry(const std::filesystem::path& scene_file, const std:
 Scene with_files(Scene scene, const std::filesystem::path& folder) {
   scene.bed = with_own_range(scene.bed, folder);  // so that a run file contains it
   scene.tool = with_mesh(scene.tool, folder);
-  scene.ground = with_meshes(scene.ground, folder);
+  scene.ground = with_sand_map(with_meshes(scene.ground, folder), scene.bed, folder);
   if (scene.ground.has_mesh()) check_scene(scene, "the scene");
   if (scene.tool.mesh && scene.stroke) check_tool_fits(scene, (folder / scene.tool.file).string());
   scene.plugin_laws = with_plugin(scene.plugin_laws, folder);
@@ -149,8 +150,10 @@ bool is_complete(const std::filesystem::path& output, const std::string& scene,
   if (std::filesystem::exists(part_path(output)) || kind_of(output) != InputKind::run) return false;
   const RunFile run(output);
   if (!run.complete() || run.scene_text() != scene) return false;
+  const std::string map_hash = sand_map_hash(simulation.scene().ground);
   for (const auto& [name, value] : run.provenance())
-    if ((name == "commit" && value != commit) || (name == "stroke_hash" && value != stroke_hash))
+    if ((name == "commit" && value != commit) || (name == "stroke_hash" && value != stroke_hash) ||
+        (name == sand_map_attribute && value != map_hash))
       return false;
   const std::shared_ptr<const TriangleMesh> mesh = run.scene().tool.mesh, ours = simulation.scene().tool.mesh;
   if (static_cast<bool>(mesh) != static_cast<bool>(ours) || (mesh && *mesh != *ours)) return false;

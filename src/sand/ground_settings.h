@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "rules/talus.h"
 #include "tool/triangle_mesh.h"
 
 namespace sandstroke {
@@ -40,6 +41,15 @@ struct SandLayer {
   bool operator==(const SandLayer&) const = default;
 };
 
+/// A file of talus angles by place. A picture says none, so they are those of its black and white.
+struct SandMap {
+  std::string file;
+  std::optional<double> low, high;                     ///< deg, of a picture's black and white
+  std::optional<double> nodata;                        ///< deg, of cells without data; none: they are refused
+  std::shared_ptr<const HeightGrid> slopes = nullptr;  ///< tan of its angles in the bed's cells (null: not
+                                                       ///< read)
+};
+
 enum class StoneShape { sphere, ellipsoid, box, mesh };
 
 /// A body that sand lies on and flows around. Only its upper side counts. The shape decides which lengths do.
@@ -59,8 +69,9 @@ struct StoneSettings {
 
 /// What the sand lies on, and its kinds by place.
 struct GroundSettings {
-  std::optional<double> floor;      ///< m, height of a level floor; none: the sand is as deep as may be
-  std::vector<SandRegion> regions;  ///< later ones lie over earlier ones
+  std::optional<double> floor;  ///< m, height of a level floor; none: the sand is as deep as may be
+  std::optional<SandMap> map;
+  std::vector<SandRegion> regions;  ///< later ones lie over earlier ones, and over the map
   std::vector<SandLayer> layers;    ///< in any order
   std::vector<StoneSettings> stones;
   double stiffness = 1000.0;  ///< N/m, of floor and stones under the hand; 0: it does not feel them
@@ -74,8 +85,8 @@ struct GroundSettings {
   }
   /// Whether sand rests at other angles in places.
   bool has_slopes() const {
-    return std::any_of(regions.begin(), regions.end(),
-                       [](const SandRegion& region) { return region.talus_angle; });
+    return map || std::any_of(regions.begin(), regions.end(),
+                              [](const SandRegion& region) { return region.talus_angle; });
   }
   /// Whether the force of the contact differs by place (StrengthByPlace).
   bool has_strengths() const {
@@ -87,7 +98,7 @@ struct GroundSettings {
   bool has_k_s() const {
     return std::any_of(regions.begin(), regions.end(), [](const SandRegion& region) { return region.k_s; });
   }
-  bool empty() const { return !is_solid() && regions.empty() && layers.empty(); }
+  bool empty() const { return !is_solid() && !map && regions.empty() && layers.empty(); }
 };
 
 }  // namespace sandstroke

@@ -11,6 +11,7 @@
 #include "core/interrupt.h"
 #include "core/parallel.h"
 #include "rules/talus.h"
+#include "sand/map_means.h"
 #include "sand/sand_region.h"
 #include "sand/stone_surface.h"
 
@@ -67,6 +68,12 @@ class GroundMaker {
       : bed_(bed),
         level_(settings.floor.value_or(-std::numeric_limits<double>::infinity())),
         talus_slope_(talus_slope) {
+    if (settings.map) {
+      if (!settings.map->slopes)
+        throw_input_error("{}: the map of talus angles was not read; run the scene from its file",
+                          settings.map->file);
+      map_ = running_means(*settings.map->slopes, bed.rows(), bed.cols());
+    }
     for (const SandRegion& region : settings.regions) {
       if (!region.talus_angle) continue;
       const RegionArea area(region);
@@ -111,6 +118,7 @@ class GroundMaker {
         for (int col = range.col_begin; col < range.col_end; ++col)
           tiles.push_back(bed_.tile_index(row, col));
     };
+    if (map_.size() > 0) add({0, bed_.tile_rows(), 0, bed_.tile_cols()});
     for (const PlacedRegion& region : regions_) add(region.tiles);
     for (const PlacedStone& stone : stones_) add(stone.tiles);
     std::sort(tiles.begin(), tiles.end());
@@ -122,8 +130,19 @@ class GroundMaker {
     tile.floor.fill(level_);
     tile.slopes.fill(talus_slope_);
     const int row = tile.tile / bed_.tile_cols(), col = tile.tile % bed_.tile_cols();
+    if (map_.size() > 0) lay_map(tile);
     lay_regions(tile, row, col);
     lay_stones(tile, row, col);
+  }
+
+  void lay_map(TileOfGround& tile) const {
+    const CellRange cells = bed_.tile_cells(tile.tile);
+    for (int row = 0; row < cells.rows(); ++row)
+      for (int col = 0; col < cells.cols(); ++col) {
+        const double slope = map_(cells.row_begin + row, cells.col_begin + col);
+        tile.slopes[static_cast<std::size_t>(row * tile_side + col)] = slope;
+        tile.has_slopes = tile.has_slopes || slope != talus_slope_;
+      }
   }
 
   void lay_regions(TileOfGround& tile, int tile_row, int tile_col) const {
@@ -206,6 +225,7 @@ class GroundMaker {
 
   BedGeometry bed_;
   double level_, talus_slope_;
+  HeightGrid map_;  // slopes; empty: there is none
   std::vector<PlacedRegion> regions_;
   std::vector<PlacedStone> stones_;
 };
@@ -220,6 +240,7 @@ std::shared_ptr<const Ground> make_ground(const BedGeometry& bed, const GroundSe
 
 GroundTiles most_tiles(const BedGeometry& bed, const GroundSettings& settings) {
   GroundTiles most;
+  if (settings.map) most.slopes = static_cast<double>(bed.tile_count());
   for (const SandRegion& region : settings.regions) {
     if (!region.talus_angle) continue;
     const Eigen::AlignedBox2d box = RegionArea(region).bounds();

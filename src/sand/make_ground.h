@@ -7,9 +7,10 @@
 
 namespace sandstroke {
 
-/// The ground of a bed; null: there is none. talus_slope: of the sand where no region says another. Meshes of
-/// stones must have been read. A cell of a region's edge has the mean of tan(talus) over the cell, where
-/// edges of several regions meet by 8 x 8 samples. Ends early, with what is made so far, if interrupted().
+/// The ground of a bed; null: there is none. talus_slope: of the sand where no map or region says another.
+/// Meshes of stones must have been read, and so must the map; if it has other cells, their means are taken. A
+/// cell of a region's edge has the mean of tan(talus) over the cell, where edges of several regions meet by 8
+/// x 8 samples. Ends early, with what is made so far, if interrupted().
 std::shared_ptr<const Ground> make_ground(const BedGeometry& bed, const GroundSettings& settings,
                                           double talus_slope);
 

@@ -10,6 +10,7 @@
 #include "sand/sand_region.h"
 #include "sand/stone_surface.h"
 #include "sim/floor_force.h"
+#include "sim/scene_sand_map.h"
 
 namespace sandstroke {
 namespace {
@@ -144,6 +145,7 @@ void check_laws(const Scene& scene, const std::string& name) {
       throw_input_error("{}: model.{} = \"{}\" is a plugin law, which knows no {}; remove one of the two",
                         name, key, *law,
                         solid                          ? solid
+                        : scene.ground.map             ? "[sand.map]"
                         : scene.ground.regions.empty() ? "[[sand.layer]]"
                                                        : "[[sand.region]]");
   if (solid && scene.relaxation.law == RelaxationLaw::paper && takes_super_steps(scene.relaxation.method))
@@ -194,6 +196,7 @@ void check_ground(const Scene& scene, const std::string& name) {
   check_strengths(scene, name);
   const GroundSettings& ground = scene.ground;
   if (ground.empty()) return;
+  if (ground.map) check_sand_map(*ground.map, name);
   check_list(ground.regions, most_regions, "sand.region", name);
   check_list(ground.layers, most_layers, "sand.layer", name);
   check_list(ground.stones, most_stones, "stone", name);

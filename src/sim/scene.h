@@ -39,7 +39,8 @@ struct BedSettings {
 /// The surface that a scene starts from, if no file has to be read for it.
 HeightField starting_bed(const BedSettings& bed);
 struct Scene;
-/// The same bed, on the ground of the scene, whose cells it must have. Meshes of stones must have been read.
+/// The same bed, on the ground of the scene, whose cells it must have. Meshes of stones, and a map of
+/// the sand, must have been read.
 HeightField on_ground(HeightField bed, const Scene& scene);
 
 struct StrokeSettings {

@@ -5,6 +5,7 @@
 
 #include "rules/talus.h"
 #include "sand/make_ground.h"
+#include "sim/scene_sand_map.h"
 #include "tool/tool_width.h"
 
 namespace sandstroke {
@@ -96,6 +97,7 @@ void describe_floor(KeyVisitor& v, GroundSettings& ground) {
 }
 
 void describe_ground(KeyVisitor& v, GroundSettings& ground) {
+  describe_sand_map(v, ground.map);
   show_tables(v, "sand.region", ground.regions,
               "a part of the bed with sand of its own kind, in a [[sand.region]] each; later ones lie over "
               "earlier ones",
@@ -127,7 +129,8 @@ double memory_of_ground(const Scene& scene) {
   const GroundTiles tiles = most_tiles(geometry, scene.ground);
   const bool lifts_all = scene.ground.floor && *scene.ground.floor > lowest_sand(bed.surface);
   const double lifted = lifts_all ? geometry.tile_count() : tiles.floor;
-  return static_cast<double>(HeightField::bytes_per_tile()) * (tiles.floor + tiles.slopes) +
+  const double map = scene.ground.map ? static_cast<double>(sizeof(double)) * bed.rows * bed.cols : 0.0;
+  return map + static_cast<double>(HeightField::bytes_per_tile()) * (tiles.floor + tiles.slopes) +
          static_cast<double>(bytes_per_relaxed_tile(scene.relaxation, true)) * lifted;
 }
 

@@ -9,7 +9,7 @@ namespace sandstroke {
 
 /// Shows bed.floor; the visitor is in the section bed.
 void describe_floor(KeyVisitor& visitor, GroundSettings& ground);
-/// Shows [[sand.region]], [[sand.layer]], [[stone]] and [ground].
+/// Shows [sand.map], [[sand.region]], [[sand.layer]], [[stone]] and [ground].
 void describe_ground(KeyVisitor& visitor, GroundSettings& ground);
 
 /// The width of the band around a border in which the force goes over to another sand [m]: force.blend. A

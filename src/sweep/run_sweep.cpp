@@ -209,7 +209,7 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
   try {
     for (SceneFile& scene : scenes) {
       scene.tool = inputs_.tool(scene.tool);
-      scene.ground = inputs_.ground(scene.ground);
+      scene.ground = inputs_.ground(scene);
       scene.plugin_laws = inputs_.plugin_laws(scene.plugin_laws);
       scene.sources = inputs_.sources(scene.sources);
       check_sources(scene, plan_.scene.string());

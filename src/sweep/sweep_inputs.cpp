@@ -4,6 +4,7 @@
 #include "core/machine.h"
 #include "io/mesh_file.h"
 #include "io/plugin_file.h"
+#include "io/sand_map_file.h"
 #include "io/scene_toml.h"
 #include "io/source_path.h"
 #include "io/stroke_file.h"
@@ -13,6 +14,15 @@ namespace sandstroke {
 namespace {
 
 constexpr std::size_t most_samples_kept = 10'000'000;  // in all strokes: about a gigabyte
+
+/// A key for the map of a scene's sand in the cells of its bed.
+std::string text_of_map(const Scene& scene) {
+  SceneFile named;
+  named.bed = scene.bed;
+  named.bed.surface = {};
+  named.ground.map = scene.ground.map;
+  return scene_text(named);
+}
 
 /// The text of a scene with this one's bed and ground, and default settings otherwise: a key for the bed.
 std::string text_of_bed(const Scene& scene) {
@@ -63,13 +73,16 @@ std::shared_ptr<const HeightField> SweepInputs::bed(const Scene& scene) {
   if (const auto found = beds_.find(key); found != beds_.end()) return found->second;
   auto loaded = std::make_shared<const HeightField>(load_bed(scene, scene_folder_));
   beds_loaded_ += 1;
-  const auto bytes = static_cast<double>(loaded->bytes());
-  bed_bytes_ += bytes;
-  if (bed_bytes_ > 0.25 * memory_room().bytes) {
-    beds_.clear();
-    bed_bytes_ = bytes;
-  }
+  make_room(static_cast<double>(loaded->bytes()));
   return beds_[key] = loaded;
+}
+
+void SweepInputs::make_room(double bytes) {
+  bed_bytes_ += bytes;
+  if (bed_bytes_ <= 0.25 * memory_room().bytes) return;
+  beds_.clear();
+  sand_maps_.clear();
+  bed_bytes_ = bytes;
 }
 
 ToolSettings SweepInputs::tool(const ToolSettings& settings) {
@@ -83,13 +96,22 @@ ToolSettings SweepInputs::tool(const ToolSettings& settings) {
   return tool;
 }
 
-GroundSettings SweepInputs::ground(GroundSettings settings) {
+GroundSettings SweepInputs::ground(const Scene& scene) {
   const std::scoped_lock lock(files_);
+  GroundSettings settings = scene.ground;
   for (StoneSettings& stone : settings.stones)
     if (stone.shape == StoneShape::mesh) stone.mesh = stones_[{stone.file, stone.scale}];
   settings = with_meshes(settings, scene_folder_);
   for (const StoneSettings& stone : settings.stones)
     if (stone.mesh) stones_[{stone.file, stone.scale}] = stone.mesh;
+  if (!settings.map) return settings;
+  const std::string key = text_of_map(scene);
+  const auto found = sand_maps_.find(key);
+  settings.map->slopes = found != sand_maps_.end() ? found->second : nullptr;
+  if (settings.map->slopes) return settings;
+  settings = with_sand_map(settings, scene.bed, scene_folder_);
+  make_room(static_cast<double>(sizeof(double)) * static_cast<double>(settings.map->slopes->size()));
+  sand_maps_[key] = settings.map->slopes;
   return settings;
 }
 

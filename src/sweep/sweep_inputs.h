@@ -26,12 +26,12 @@ class SweepInputs {
 
   /// The stroke that a scene plays. nullptr if it plays none.
   std::shared_ptr<const SweepStroke> stroke(const Scene& scene);
-  /// The bed that a scene starts from, on its ground, whose meshes must have been read (ground()).
+  /// The bed that a scene starts from, on its ground, whose meshes and map must have been read (ground()).
   std::shared_ptr<const HeightField> bed(const Scene& scene);
   /// The same tool, with its mesh if it is a mesh.
   ToolSettings tool(const ToolSettings& settings);
-  /// The same ground, with the meshes of its stones.
-  GroundSettings ground(GroundSettings settings);
+  /// The ground of a scene, with the meshes of its stones, and its map in the bed's cells.
+  GroundSettings ground(const Scene& scene);
   /// The same settings, with the laws of their plugin if they name one.
   PluginLawSettings plugin_laws(const PluginLawSettings& settings);
   /// With their paths loaded.
@@ -43,13 +43,17 @@ class SweepInputs {
   std::mutex& files() { return files_; }
 
  private:
+  /// Counts what is about to be kept in beds_ or sand_maps_, which forget all if it is too much.
+  void make_room(double bytes);
+
   std::filesystem::path scene_folder_;
   std::mutex files_;
   std::map<std::string, bool> by_force_;  // by file: whether force constants change the stroke
-  std::map<std::string, std::shared_ptr<const SweepStroke>> strokes_;  // by file and settings
-  std::size_t stroke_samples_ = 0;                                     // number of samples in strokes_
-  std::map<std::string, std::shared_ptr<const HeightField>> beds_;     // by their settings
-  double bed_bytes_ = 0.0;                                             // size of beds_
+  std::map<std::string, std::shared_ptr<const SweepStroke>> strokes_;   // by file and settings
+  std::size_t stroke_samples_ = 0;                                      // number of samples in strokes_
+  std::map<std::string, std::shared_ptr<const HeightField>> beds_;      // by their settings
+  std::map<std::string, std::shared_ptr<const HeightGrid>> sand_maps_;  // by their settings, and the bed's
+  double bed_bytes_ = 0.0;                                              // size of beds_ and sand_maps_
   std::map<std::pair<std::string, double>, std::shared_ptr<const TriangleMesh>> meshes_,
       stones_;                                                        // by file and scale
   std::map<std::string, std::shared_ptr<const PluginLaws>> plugins_;  // by file

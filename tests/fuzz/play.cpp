@@ -17,7 +17,7 @@ constexpr int few_cells = 64, few_ticks = 8;
 void run_briefly(Scene scene, const std::optional<Stroke>& stroke) {
   scene.relaxation.max_passes = std::min<std::int64_t>(scene.relaxation.max_passes, 2);
   scene.output.frames = 0.0;
-  if (scene.ground.has_mesh()) return;
+  if (scene.ground.has_mesh() || scene.ground.map) return;
   Simulation(scene, on_ground(starting_bed(scene.bed), scene), stroke).run();
 }
 

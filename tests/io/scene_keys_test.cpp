@@ -32,6 +32,8 @@ const std::vector<std::string> stroke = {"stroke.file=x.h5"}, dynamic = {"device
                                outward = {"displacement.deposit=outward"},
                                source = {"source=[{at = [0, 0, 0.1], rate = 0.1, path = \"y.h5\"}]"};
 
+const std::vector<std::string> sand_map = {"sand.map.file=y.png"};
+
 const std::vector<std::string> region = {"sand.region=[{talus_angle = 33.0}]"},
                                round = {"sand.region=[{talus_angle = 33.0, shape = 'circle'}]"},
                                polygon =
@@ -72,6 +74,10 @@ const std::vector<KeyCase> cases = {
      [](S s) { return s.bed.cols == 50 && s.bed.rows == 100; },
      {"bed.size=[1.5, 3.0]"}},
     {"bed.floor=-0.035", [](S s) { return s.ground.floor == -0.035; }},
+    {"sand.map.file=z.png", [](S s) { return s.ground.map->file == "z.png"; }, sand_map},
+    {"sand.map.low=25.5", [](S s) { return s.ground.map->low == 25.5; }, sand_map},
+    {"sand.map.high=36.5", [](S s) { return s.ground.map->high == 36.5; }, sand_map},
+    {"sand.map.nodata=31.5", [](S s) { return s.ground.map->nodata == 31.5; }, sand_map},
     {"sand.region.1.shape=circle", [](S s) { return s.ground.regions[0].shape == RegionShape::circle; },
      region},
     {"sand.region.1.centre=[0.11, 0.12]",

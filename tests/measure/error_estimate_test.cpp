@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "rules/talus.h"
 #include "sim/two_drags.h"
 
 namespace sandstroke {
@@ -124,6 +125,42 @@ TEST(ErrorEstimate, IsNothingBeyondARoundWall) {
   EXPECT_GT(e.height_rms, 0.0);
   for (int row = 0; row < 3; ++row)
     for (int col = 0; col < 3; ++col) EXPECT_NEAR(map(row, col), 0.0, 1e-15) << row << ", " << col;
+}
+
+/// A cone over a seam of two kinds of sand, that a map in these cells gives; level: one kind.
+Scene cone_on_a_map(int n, int map_cells, bool level = false) {
+  Scene scene = cylinder_scene(n);
+  scene.relaxation.talus_angle = 25.0;
+  HeightGrid slopes = HeightGrid::Constant(map_cells, map_cells, talus_slope(25.0));
+  if (!level) slopes.rightCols(map_cells / 2).setConstant(talus_slope(35.0));
+  scene.ground.map.emplace().file = "in memory";
+  scene.ground.map->slopes = std::make_shared<HeightGrid>(slopes);
+  return scene;
+}
+
+ErrorEstimate estimated_on_ground(const Scene& scene, SecondSolution which) {
+  const HeightField start = on_ground(starting_bed(scene.bed), scene);
+  Kept force(force_of);
+  const Solution run = solve(scene, start, {}, {&force});
+  return estimate_error(scene, start, {}, run, force, which);
+}
+
+TEST(ErrorEstimate, TakesTheMeansOfAMapOfTheSand) {
+  for (const SecondSolution which : {SecondSolution::coarser, SecondSolution::finer}) {
+    // The seam is between cells of all three beds: averaged and split, the map is what it is in their cells.
+    const Scene scene = cone_on_a_map(64, 64), of_others = cone_on_a_map(64, 32);
+    const ErrorEstimate one = estimated_on_ground(scene, which),
+                        other = estimated_on_ground(of_others, which);
+    EXPECT_EQ(one.height_rms, other.height_rms);
+    EXPECT_GT(one.height_rms, 0.0);
+    // One kind of sand everywhere has the bits of no map, also in cells that do not divide each other.
+    for (const int cells : {64, 27}) {
+      const Scene level = cone_on_a_map(cells, cells, true);
+      Scene none = level;
+      none.ground = {};
+      EXPECT_EQ(estimated_on_ground(level, which).height_rms, estimated_on_ground(none, which).height_rms);
+    }
+  }
 }
 
 TEST(ErrorEstimate, IsZeroForAPlungesForceWhichDependsOnDepthAlone) {

@@ -111,6 +111,33 @@ def test_scenes_may_have_stones(small):
         sandstroke.Simulation(scene, laws={"force": lambda depth, motion, tip, **numbers: (0.0, 0.0, 0.0)})
 
 
+def test_scenes_may_have_a_map_of_the_sand(small, tmp_path):
+    import pickle
+    angles = np.full((60, 100), 25.0)
+    angles[:, 50:] = 35.0
+    np.save(tmp_path / "talus.npy", angles)
+    heap = np.zeros((60, 100))
+    heap[20:40, 30:70] = 0.05
+    bed = {"bed": {"size": [0.2, 0.12], "cells": [100, 60]}, "relaxation": {"talus_angle": 25.0}}
+    seam = {"talus_angle": 35.0, "centre": [0.5, 0.0], "size": [1.0, 1.0]}
+    by_map = sandstroke.Scene({**bed, "sand": {"map": {"file": str(tmp_path / "talus.npy")}}})
+    by_region = sandstroke.Scene({**bed, "sand": {"region": [seam]}})
+    assert by_map["sand.map.file"] == str(tmp_path / "talus.npy")
+    run = sandstroke.run(by_map, surface=heap)
+    assert np.array_equal(run.final, sandstroke.run(by_region, surface=heap).final)
+    assert not np.array_equal(run.final, sandstroke.run(bed, surface=heap).final)
+    assert np.array_equal(sandstroke.run(run.scene, surface=heap).final, run.final)
+    simulation = sandstroke.Simulation(by_map, surface=heap)
+    assert np.array_equal(pickle.loads(pickle.dumps(simulation)).heights, simulation.heights)
+    sandstroke.run({**bed, "bed": {"size": [0.2, 0.12], "cells": [50, 30]},
+                    "sand": {"map": {"file": str(tmp_path / "talus.npy")}}})
+    np.save(tmp_path / "talus.npy", angles + 90.0)
+    with pytest.raises(sandstroke.InputError, match="6000 cells have values that are not between 0 and 90"):
+        sandstroke.run(by_map, surface=heap)
+    with pytest.raises(sandstroke.InputError, match="knows no bed.floor, stone, sand.map"):
+        sandstroke.Simulation(by_map, laws={"force": lambda depth, motion, tip, **numbers: (0.0, 0.0, 0.0)})
+
+
 class Table(dict):
     """As much of a DataFrame as counts: columns by name."""
 

@@ -102,6 +102,19 @@ TEST(CheckGround, SomeLawsKnowNoFloor) {
       "a.toml: model.force = \"spring\" is a plugin law, which knows no [[stone]]; remove one of the two");
 }
 
+TEST(CheckGround, AMapNeedsAFileAndTheProgramsLaws) {
+  Scene scene = small_garden();
+  scene.ground.map.emplace();
+  EXPECT_EQ(complaint(scene), "a.toml: sand.map.file is missing; name a map of talus angles");
+  scene.ground.map->file = "talus.png";
+  EXPECT_EQ(complaint(scene), "none");
+  scene.plugin_laws.relaxation = "slow";
+  EXPECT_EQ(
+      complaint(scene),
+      "a.toml: model.relaxation = \"slow\" is a plugin law, which knows no [sand.map]; remove one of the "
+      "two");
+}
+
 TEST(CheckGround, AGroundMustFitTheMemory) {
   if (physical_memory() > 100e9) GTEST_SKIP() << "this machine has memory for it";
   Scene scene;
@@ -111,12 +124,13 @@ TEST(CheckGround, AGroundMustFitTheMemory) {
   scene.ground.regions = {flat_region()};
   scene.ground.stones = {sphere(0.0, 0.0, 0.0, 0.1)};
   EXPECT_EQ(complaint(scene), "none");
-  Scene wide = scene, large = scene, bare = scene;
+  Scene wide = scene, large = scene, bare = scene, mapped = scene;
   wide.ground.regions[0].size = {200.0, 200.0};
   large.ground.stones[0].radius = 100.0;
   bare.ground.stones.clear();
-  bare.ground.floor = 0.1;  // all sand would have to be lifted
-  for (const Scene& one : {wide, large, bare})
+  bare.ground.floor = 0.1;                         // all sand would have to be lifted
+  mapped.ground.map.emplace().file = "talus.png";  // every cell has a slope of its own
+  for (const Scene& one : {wide, large, bare, mapped})
     EXPECT_NE(complaint(one).find("of memory"), std::string::npos) << complaint(one);
 }
 

@@ -9,7 +9,9 @@
 #include "core/input_file.h"
 #include "core/output_file.h"
 #include "hdf5/hdf5_reader.h"
+#include "io/map_files.h"
 #include "io/png_file.h"
+#include "kept_log.h"
 #include "run/run_scene.h"
 #include "test_folder.h"
 
@@ -207,6 +209,39 @@ TEST_F(ASweep, EachBedIsLoadedOnceWhateverTheOrder) {
   Sweep s = sweep(
       "", "force.k_s = [1, 2]\nrelaxation.talus_angle = [20, 30, 40]\nbed.cells = [[80, 80], [160, 160]]\n");
   EXPECT_EQ(s.run(folder(s, "out"), {}).beds_loaded, 2);
+}
+
+TEST_F(ASweep, AMapOfTheSandIsReadOnceForEachBedsCells) {
+  const int cells = 77;  // of none of the beds
+  put_text(
+      temporary / "talus.npy",
+      npy_bytes<double>(HeightGrid::NullaryExpr(
+                            cells, cells, [](auto row, auto col) { return 15.0 + (5 * row + 3 * col) % 20; }),
+                        "<f8"));
+  const auto swept = [&](const std::string& name, const std::string& beds, int jobs) {
+    Sweep s = sweep("keep = [\"surface\"]\n",
+                    "sand.map.file = [\"talus.npy\"]\nforce.k_s = [500, 1000]\n"
+                    "bed.surface.height = [0.08]\nbed.surface.radius = [0.08]\n"
+                    "bed.surface.kind = [\"cone\"]\nbed.cells = " +
+                        beds);
+    const SweepFolder out = folder(s, name);
+    EXPECT_EQ(s.run(out, with_jobs(jobs)).failed(), 0u);
+    return out;
+  };
+  const KeptLog log;
+  const SweepFolder both = swept("both", "[[80, 80], [60, 60]]\n", 2);
+  int read = 0;
+  for (std::size_t at = log.text().find("talus angles"); at != std::string::npos;
+       at = log.text().find("talus angles", at + 1))
+    ++read;
+  EXPECT_EQ(read, 2);
+  const SweepFolder one = swept("one", "[[80, 80]]\n", 1), other = swept("other", "[[60, 60]]\n", 1);
+  EXPECT_TRUE((surface_in(both, 0) == surface_in(one, 0)).all());
+  EXPECT_TRUE((surface_in(both, 1) == surface_in(other, 0)).all());
+  EXPECT_GT(surface_in(both, 0).maxCoeff(), 0.01);
+  const SweepManifest before = sweep("", "sand.map.file = [\"talus.npy\"]\n").manifest();
+  put_text(temporary / "talus.npy", "another file");
+  EXPECT_NE(sweep("", "sand.map.file = [\"talus.npy\"]\n").manifest().inputs, before.inputs);
 }
 
 TEST_F(ASweep, WhatCannotBeWrittenEndsIt) {
