@@ -29,8 +29,8 @@ BedSettings bed_of_cells(int rows, int cols) {
   BedSettings bed;
   bed.rows = rows;
   bed.cols = cols;
-  bed.width = 0.3;
-  bed.depth = 0.3 * rows / cols;
+  bed.width = 3.0;
+  bed.depth = 3.0 * rows / cols;
   return bed;
 }
 
@@ -139,11 +139,13 @@ TEST_F(SandMapFile, ASeamOnFacesIsThatOfARegionToTheBit) {
   GroundSettings by_map, by_region;
   by_map.map = map_;
   by_region.regions.resize(1);
-  by_region.regions[0].centre = {5.0, 0.0};
-  by_region.regions[0].size = {10.0, 10.0};
+  by_region.regions[0].centre = {50.0, 0.0};
+  by_region.regions[0].size = {100.0, 100.0};
   by_region.regions[0].talus_angle = 35.0;
   for (const int cols : {30, 54, 90, 150}) {  // even: the seam is between cells
-    const BedSettings bed = bed_of_cells(2 * cols / 3, cols);
+    BedSettings bed = bed_of_cells(2 * cols / 3, cols);
+    bed.width = 0.125 * bed.cols;  // so that the region's edge is exactly there
+    bed.depth = 0.125 * bed.rows;
     const BedGeometry geometry(bed.rows, bed.cols, bed.cell_size());
     const auto one = make_ground(geometry, with_sand_map(by_map, bed, folder_.path()), talus_slope(25.0)),
                other = make_ground(geometry, by_region, talus_slope(25.0));
@@ -208,14 +210,13 @@ TEST_F(SandMapFile, FilesThatAreNoMapsAreRefused) {
   write_png(folder_ / "map.png", picture);
   expect_refused(bed_of_cells(4, 6), {"16-bit grayscale PNG"});
   put_picture(HeightGrid::Constant(4, 5, 0.5));
-  expect_refused(bed_of_cells(4, 6),
-                 {"5 x 4 cells, which a bed of 0.3 m by 0.2 m cannot have without "
-                  "distortion; cut the map, or set bed.size = [0.3, 0.24] and bed.cells"});
+  expect_refused(bed_of_cells(4, 6), {"5 x 4 cells, which a bed of 3 m by 2 m cannot have without "
+                                      "distortion; cut the map, or set bed.size = [3, 2.4] and bed.cells"});
   map_.file = "map";
   map_.low.reset();
   map_.high.reset();
   put_text(folder_ / "map", esri_text(some_angles(4, 5), 2.0));
-  expect_refused(bed_of_cells(4, 6), {"5 x 4 cells of 2 x 2 m", "set bed.size = [0.3, 0.24] and bed.cells"});
+  expect_refused(bed_of_cells(4, 6), {"5 x 4 cells of 2 x 2 m", "set bed.size = [3, 2.4] and bed.cells"});
 }
 
 TEST_F(SandMapFile, CellsWithoutDataAreRefusedOrSet) {
@@ -276,7 +277,7 @@ TEST_F(SandMapFile, TheLogSaysWhatWasRead) {
   load(bed_of_cells(20, 30));
   const std::string name = (folder_ / "map").string();
   EXPECT_EQ(log.text(),
-            name + ": 6 x 4 cells of 25 m fitted to 30 x 20 cells of 0.01 m; talus angles 20 to 39 deg\n" +
+            name + ": 6 x 4 cells of 25 m fitted to 30 x 20 cells of 0.1 m; talus angles 20 to 39 deg\n" +
                 name + ": 30 x 20 cells; talus angle 30 deg; its first row is at the smallest y\n" + name +
                 ".png: 30 x 20 cells; talus angles 25 to 30 deg\n");
 }

@@ -305,7 +305,7 @@ TEST(SceneToml, RefusesStonesAndRegionsThatCannotBeMeant) {
             "scene.toml:1: stone is one table; write [[stone]], with two brackets");
   EXPECT_EQ(said("stone = 3\n"), "scene.toml:1: stone is an integer; write [[stone]] tables");
   EXPECT_EQ(said("[[sand]]\nx = 3\n"),
-            "scene.toml:1: sand.region is not found: 'sand' is a list of tables; write [sand]");
+            "scene.toml:1: sand.map is not found: 'sand' is a list of tables; write [sand]");
   EXPECT_EQ(said("[sand]\nregoin = 3\n"), "scene.toml:2: unknown key sand.regoin; did you mean sand.region?");
   EXPECT_EQ(
       said("[[sand.region]]\n"),

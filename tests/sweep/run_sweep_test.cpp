@@ -213,11 +213,13 @@ TEST_F(ASweep, EachBedIsLoadedOnceWhateverTheOrder) {
 
 TEST_F(ASweep, AMapOfTheSandIsReadOnceForEachBedsCells) {
   const int cells = 77;  // of none of the beds
-  put_text(
-      temporary / "talus.npy",
-      npy_bytes<double>(HeightGrid::NullaryExpr(
-                            cells, cells, [](auto row, auto col) { return 15.0 + (5 * row + 3 * col) % 20; }),
-                        "<f8"));
+  put_text(temporary / "talus.npy",
+           npy_bytes<double>(HeightGrid::NullaryExpr(cells, cells,
+                                                     [](auto row, auto col) {
+                                                       return 15.0 +
+                                                              static_cast<double>((5 * row + 3 * col) % 20);
+                                                     }),
+                             "<f8"));
   const auto swept = [&](const std::string& name, const std::string& beds, int jobs) {
     Sweep s = sweep("keep = [\"surface\"]\n",
                     "sand.map.file = [\"talus.npy\"]\nforce.k_s = [500, 1000]\n"
