@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <random>
 #include <string>
 
@@ -15,6 +14,7 @@
 #include "sand/all_laws.h"
 #include "sand/relaxation.h"
 #include "sanitized.h"
+#include "validation/study/surface_error.h"
 
 namespace sandstroke {
 namespace {
@@ -107,7 +107,7 @@ double kept_on_disc(int cells, const LawAndMethod& one, std::int64_t* passes = n
       [&](double x, double y) { return on_disc(x, y) ? 1.1 * a * t30 : 0.0; });
   const RelaxationOutcome outcome = relax(bed, settings_of(one, 1e-4));
   if (passes) *passes = outcome.passes;
-  return sand_on(bed, on_disc) / (std::numbers::pi * a * a * a * t30 / 3.0);
+  return sand_on(bed, on_disc) / ExactCone{t30, 0.0, a}.volume();
 }
 
 class SandOnAFloor : public testing::TestWithParam<LawAndMethod> {};
@@ -130,10 +130,7 @@ TEST_P(SandOnAFloor, StandsOnADiscAsACone) {
 /// What a sphere keeps of sand that is heaped on it, over the closed form, less 1: a cap with a cone that is
 /// tangent to the sphere.
 double off_on_sphere(int cells, const LawAndMethod& one) {
-  constexpr double R = 0.08, al = 30.0 * std::numbers::pi / 180.0;
-  const double exact = std::numbers::pi * R * R * R *
-                       (std::pow(std::sin(al), 3) * std::tan(al) / 3.0 -
-                        std::pow(1.0 - std::cos(al), 2) * (2.0 + std::cos(al)) / 3.0);
+  constexpr double R = 0.08;
   HeightField bed = bed_on(
       cells, 0.2,
       [](double x, double y) {
@@ -142,7 +139,8 @@ double off_on_sphere(int cells, const LawAndMethod& one) {
       },
       [](double x, double y) { return radius_at(x, y) < 0.5 * R ? 0.02 : 0.0; });
   relax(bed, settings_of(one, 1e-4));
-  return sand_on(bed, [](double x, double y) { return radius_at(x, y) < R; }) / exact - 1.0;
+  return sand_on(bed, [](double x, double y) { return radius_at(x, y) < R; }) / ExactCap{t30, R}.volume() -
+         1.0;
 }
 
 TEST_P(SandOnAFloor, StandsOnASphereAsACapWithATangentCone) {
@@ -205,13 +203,6 @@ TEST(SuperStepsOverAFloor, ComeToTheSameRestInFarFewerPasses) {
 
 // --- kinds of sand by place ---
 
-/// The exact rest of a slope over a seam at x = xs, 25 degrees before it and 35 behind: the mean height of
-/// each cell, but for a constant.
-double seam_profile(double x, double dx, double xs) {
-  const auto integral = [&](double to) { return -0.5 * (to < xs ? t25 : t35) * (to - xs) * (to - xs); };
-  return (integral(x + 0.5 * dx) - integral(x - 0.5 * dx)) / dx;
-}
-
 struct SeamError {
   double mean, largest;  // m
 };
@@ -219,19 +210,20 @@ SeamError seam_error(const LawAndMethod& one, int cells, double xs) {
   constexpr double length = 0.2;
   HeightField bed(1, cells, length / cells);
   auto ground = std::make_shared<Ground>(bed, t30);
+  const ExactSeam exact{t25, t35, xs};
   double constant = 0.0;
   for (int col = 0; col < cells; ++col) {
     const double x = bed.x_of(col), dx = bed.cell_size();
     const double behind = std::clamp((x + 0.5 * dx - xs) / dx, 0.0, 1.0);
     ground->talus_slopes.set(0, col, (1.0 - behind) * t25 + behind * t35);
     bed.set(0, col, 0.3 - x);
-    constant += (0.3 - x - seam_profile(x, dx, xs)) / cells;
+    constant += (0.3 - x - exact.mean(x, dx)) / cells;
   }
   bed.lie_on(ground);
   relax(bed, settings_of(one, 1e-7));
   SeamError error{0.0, 0.0};
   for (int col = 0; col < cells; ++col) {
-    const double off = std::abs(bed(0, col) - constant - seam_profile(bed.x_of(col), bed.cell_size(), xs));
+    const double off = std::abs(bed(0, col) - constant - exact.mean(bed.x_of(col), bed.cell_size()));
     error.mean += off / cells;
     error.largest = std::max(error.largest, off);
   }
@@ -315,24 +307,7 @@ std::pair<double, double> flanks(const LawAndMethod& one, int cells, double turn
     }
   bed.lie_on(ground);
   relax(bed, settings_of(one, 1e-4));
-  const auto flank = [&](double sign) {  // least squares along the seam's normal
-    double n = 0.0, sx = 0.0, sz = 0.0, sxx = 0.0, sxz = 0.0;
-    for (double r = 3.0 * dx; r < 0.09; r += 0.25 * dx) {
-      const double row = bed.row_at(sign * r * s), col = bed.col_at(sign * r * c);
-      const int i = static_cast<int>(std::floor(row)), j = static_cast<int>(std::floor(col));
-      const double v = row - i, u = col - j;
-      const double z = (1.0 - v) * ((1.0 - u) * bed(i, j) + u * bed(i, j + 1)) +
-                       v * ((1.0 - u) * bed(i + 1, j) + u * bed(i + 1, j + 1));
-      if (z < 0.006 || z > 0.02) continue;
-      n += 1.0;
-      sx += r;
-      sz += z;
-      sxx += r * r;
-      sxz += r * z;
-    }
-    return to_degrees(std::atan(-(n * sxz - sx * sz) / (n * sxx - sx * sx)));
-  };
-  return {flank(-1.0), flank(1.0)};
+  return {slope_along(bed, turn + 180.0, 0.006, 0.02), slope_along(bed, turn, 0.006, 0.02)};
 }
 
 TEST(KindsOfSand, StandWithBothFlanksOverATurnedSeam) {

@@ -10,6 +10,10 @@ double ExactCone::operator()(double x, double y) const {
   return std::max(0.0, slope * (foot - std::max(plateau, std::hypot(x, y))));
 }
 
+double ExactCone::volume() const {
+  return std::numbers::pi * slope * (foot * foot * foot - plateau * plateau * plateau) / 3.0;
+}
+
 ExactCone collapsed_cylinder(double radius, double height, double talus_angle) {
   const double t = talus_slope(talus_angle), width = height / t;  // width of the flank
   if (height >= std::sqrt(3.0) * radius * t) return {t, 0.0, std::cbrt(3.0 * radius * radius * width)};
@@ -35,6 +39,28 @@ double ExactTrench::operator()(double x, double) const {
 ExactTrench filled_slot(double half_width, double depth, double talus_angle) {
   const double t = talus_slope(talus_angle);
   return {t, std::sqrt(2.0 * half_width * depth / t)};  // the V has the slot's area
+}
+
+double ExactCap::top() const { return radius * std::sqrt(1.0 + slope * slope); }
+
+double ExactCap::volume() const {
+  const double cosine = radius / top(), sine = slope * cosine;
+  return std::numbers::pi * radius * radius * radius / 3.0 *
+         (sine * sine * sine * slope - (1.0 - cosine) * (1.0 - cosine) * (2.0 + cosine));
+}
+
+double ExactCap::operator()(double x, double y) const {
+  const double r = std::hypot(x, y);
+  return r < foot() ? top() - slope * r - std::sqrt(radius * radius - r * r) : 0.0;
+}
+
+double ExactSeam::operator()(double x, double) const { return (x < seam ? before : behind) * (seam - x); }
+
+double ExactSeam::mean(double x, double width) const {
+  const auto integral = [&](double to) {
+    return -0.5 * (to < seam ? before : behind) * (to - seam) * (to - seam);
+  };
+  return (integral(x + 0.5 * width) - integral(x - 0.5 * width)) / width;
 }
 
 double ExactCrater::operator()(double x, double y) const {

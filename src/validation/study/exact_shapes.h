@@ -19,6 +19,7 @@ using ExactSurface = std::function<double(double x, double y)>;
 struct ExactCone {
   double slope, plateau, foot;
   double top() const { return slope * (foot - plateau); }
+  double volume() const;  ///< m^3; a full cone's is pi foot^3 slope / 3: what stays on a disc of that radius
   double operator()(double x, double y) const;
 };
 /// The rest shape of a cylinder: a full cone if height >= sqrt(3) radius tan(talus), else a truncated one.
@@ -41,6 +42,27 @@ struct ExactTrench {
   double operator()(double x, double y) const;
 };
 ExactTrench filled_slot(double half_width, double depth, double talus_angle);
+
+/// The sand that stays on a sphere around the origin: a cone that touches the sphere where that is as steep
+/// as the talus.
+struct ExactCap {
+  double slope, radius;
+  double foot() const { return slope * top() / (1.0 + slope * slope); }
+  /// The cone's tip over the sphere's centre.
+  double top() const;
+  double volume() const;
+  /// Thickness of the sand.
+  double operator()(double x, double y) const;
+};
+
+/// The rest shape of a slope down along x over a seam of two sands, whose slopes are `before` and `behind` x
+/// = `seam`: two lines that meet there at z = 0.
+struct ExactSeam {
+  double before, behind, seam;
+  double operator()(double x, double y) const;
+  /// The mean height from x - width / 2 to x + width / 2.
+  double mean(double x, double width) const;
+};
 
 /// The rest shape of a flat bed that drained through a hole at the origin, down to `depth`: a cone under the
 /// isotropic law, an octagonal pyramid under the paper's.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <memory>
 
-#include "core/stopwatch.h"
 #include "sand/initial_surface.h"
 #include "validation/study/error_checks.h"
 #include "validation/study/problem.h"
@@ -27,13 +26,7 @@ struct Pile {
 };
 
 Trial collapse(const Pile& pile, int cells, const Relaxing& relax) {
-  const HeightField start = pile.start(cells);
-  HeightField bed = start;
-  const Stopwatch watch;
-  const RelaxationOutcome outcome = relax(bed);
-  Trial trial{watch.seconds(), score_of(bed, start, outcome, pile.shape)};
-  trial.score.volume_drift = std::abs(bed.volume() - start.volume()) / outcome.moved_volume;
-  return trial;
+  return relaxed_trial(pile.start(cells), pile.shape, relax);
 }
 
 /// over_cells: its points differ in the cell size alone, so they show an order of convergence.

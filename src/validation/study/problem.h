@@ -38,6 +38,7 @@ struct Score {
   double rms_relative = not_applicable;    ///< fraction of the exact shape's height
   double largest_relative = not_applicable;
   double slope_error = not_applicable;       ///< deg, the largest of all directions
+  double volume_error = not_applicable;      ///< relative, of the sand that stays
   double work_error = not_applicable;        ///< relative
   double force_error = not_applicable;       ///< rms over the largest force
   double position_error = not_applicable;    ///< m, rms
@@ -146,6 +147,11 @@ Problem trench_problem(const ProblemOptions& options);
 Problem crater_problem(const ProblemOptions& options);
 // Sand that is poured (pouring.cpp).
 Problem poured_problem(const ProblemOptions& options);
+// Sand on stones and of two kinds, against closed forms (ground_shapes.cpp).
+Problem seam_problem(const ProblemOptions& options);
+Problem ridge_problem(const ProblemOptions& options);
+Problem disc_problem(const ProblemOptions& options);
+Problem cap_problem(const ProblemOptions& options);
 // The device's work, against closed forms (contact.cpp).
 Problem plunge_problem(const ProblemOptions& options);
 Problem drag_problem(const ProblemOptions& options);

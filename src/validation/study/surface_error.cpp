@@ -74,4 +74,19 @@ std::vector<double> flank_slope_errors(const HeightField& bed, const Flank& flan
   return errors;
 }
 
+double slope_along(const HeightField& bed, double direction, double low, double high) {
+  const double col_step = std::cos(to_radians(direction)), row_step = std::sin(to_radians(direction));
+  constexpr double step = 0.25;  // cells
+  LineFit line;
+  for (double way = 0.0;; way += step) {  // cells
+    const double row = bed.row_at(0.0) + way * row_step, col = bed.col_at(0.0) + way * col_step;
+    if (!(row >= 0.0 && row < bed.rows() - 1 && col >= 0.0 && col < bed.cols() - 1)) break;
+    const int i = static_cast<int>(row), j = static_cast<int>(col);
+    const double z = std::lerp(std::lerp(bed(i, j), bed(i, j + 1), col - j),
+                               std::lerp(bed(i + 1, j), bed(i + 1, j + 1), col - j), row - i);
+    if (z >= low && z <= high) line.add(way * bed.cell_size(), z);
+  }
+  return to_degrees(std::atan(-line.slope()));
+}
+
 }  // namespace sandstroke

@@ -29,4 +29,8 @@ struct Flank {
 /// within 5 degrees of it, between 0.2 and 0.8 of the flank.
 std::vector<double> flank_slope_errors(const HeightField& bed, const Flank& flank);
 
+/// How steep [deg] a heap falls from the origin in a direction [deg from +x towards +y], between two heights
+/// [m]: by the least-squares line through the surface between cells.
+double slope_along(const HeightField& bed, double direction, double low, double high);
+
 }  // namespace sandstroke

@@ -2,23 +2,10 @@
 // smaller cells.
 #include <gtest/gtest.h>
 
-#include <map>
-
-#include "validation/study/study.h"
+#include "validation/study/errors_of.h"
 
 namespace sandstroke {
 namespace {
-
-/// The errors of each series, the coarse runs first.
-std::map<std::string, std::vector<double>> errors_of(const std::string& problem) {
-  StudyOptions options;
-  options.quick = true;
-  options.problems = {problem};
-  options.repeats = 1;
-  std::map<std::string, std::vector<double>> errors;
-  for (const StudyRun& run : run_study(options).runs) errors[run.series].push_back(run.error);
-  return errors;
-}
 
 TEST(AnyToolProblems, ABladesHeapComesNearerToItsClosedForm) {
   const std::vector<double> errors = errors_of("blade")["cell size"];  // 5.1, 1.6, 0.4 %

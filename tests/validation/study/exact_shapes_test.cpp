@@ -41,6 +41,34 @@ TEST(ExactShapes, APlateauIsAsHighAsTheCylinderAndVanishesWhereTheConeIsFull) {
               collapsed_cylinder(0.5, full, 30.0).foot, 1e-8);
 }
 
+TEST(ExactShapes, ConesAndCapsHaveTheirVolumes) {
+  const ExactCone low = collapsed_cylinder(0.5, 0.2, 30.0), full{t, 0.0, 0.6};
+  EXPECT_NEAR(low.volume() / volume(low, 1.0), 1.0, 1e-4);
+  EXPECT_NEAR(full.volume() / (pi * 0.6 * 0.6 * 0.6 * t / 3.0), 1.0, 1e-14);
+  const ExactCap cap{t, 0.8};
+  EXPECT_NEAR(cap.foot(), 0.8 * std::sin(pi / 6.0), 1e-15);
+  EXPECT_NEAR(cap.volume() / volume(cap, 0.5), 1.0, 1e-4);
+  // The published form, of the slope's angle.
+  const double s = std::sin(pi / 6.0), c = std::cos(pi / 6.0);
+  EXPECT_NEAR(cap.volume() / (pi * 0.512 * (s * s * s * t / 3.0 - (1.0 - c) * (1.0 - c) * (2.0 + c) / 3.0)),
+              1.0, 1e-12);
+  EXPECT_NEAR(cap(0.0, 0.0), 0.8 / c - 0.8, 1e-15);
+  EXPECT_NEAR(cap(0.3, 0.2645), 0.0, 1e-6);  // near its foot: it touches the sphere
+  EXPECT_EQ(cap(0.3, 0.3), 0.0);
+}
+
+TEST(ExactShapes, ASeamsMeansAreThoseOfItsLines) {
+  const ExactSeam seam{0.4, 0.7, 0.1};
+  EXPECT_EQ(seam(0.1, 0.0), 0.0);
+  EXPECT_NEAR(seam(-0.1, 3.0), 0.08, 1e-15);
+  EXPECT_NEAR(seam(0.3, 0.0), -0.14, 1e-15);
+  for (const double x : {0.0, 0.08, 0.1, 0.13, 0.4}) {
+    double sum = 0.0;
+    for (int i = 0; i < 1000; ++i) sum += seam(x + ((i + 0.5) / 1000 - 0.5) * 0.1, 0.0) / 1000;
+    EXPECT_NEAR(seam.mean(x, 0.1), sum, 1e-7) << x;
+  }
+}
+
 TEST(ExactShapes, TheOctagonIsAsSteepAsTheLawAllowsOnItsAxesAndTwoDegreesSteeperBetween) {
   const ExactCrater octagon = drained_crater(0.25, 30.0, RelaxationLaw::paper);
   const auto slope_at = [&](double angle) {

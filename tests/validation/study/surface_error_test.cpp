@@ -60,5 +60,18 @@ TEST(FlankSlopes, SeeTheDirectionThatIsSteeper) {
   }
 }
 
+TEST(FlankSlopes, AreThoseOfAPlaneInAnyDirectionBetweenTwoHeights) {
+  // A roof whose ridge is turned: its sides fall by 0.4 and 0.7, and above 0.6 m it is cut off.
+  const double turn = 22.5 * M_PI / 180.0;
+  const HeightField bed = sampled(
+      [&](double x, double y) {
+        const double across = x * std::cos(turn) + y * std::sin(turn);
+        return std::min(0.6, 0.8 - (across > 0.0 ? 0.4 : -0.7) * across);
+      },
+      128);
+  EXPECT_NEAR(slope_along(bed, 22.5, 0.5, 0.58), std::atan(0.4) * 180.0 / M_PI, 1e-9);
+  EXPECT_NEAR(slope_along(bed, 202.5, 0.3, 0.58), std::atan(0.7) * 180.0 / M_PI, 1e-9);
+}
+
 }  // namespace
 }  // namespace sandstroke
