@@ -75,8 +75,9 @@ const std::vector<CellUnder>& SandSources::cells_under(const HeightField& bed, S
 
 double SandSources::set(HeightField& bed, const CellUnder& cell, double before, double after) {
   if (after == before) return 0.0;
-  const double length = std::max(bed.rows(), bed.cols()) * bed.cell_size();
-  if (!(std::abs(after) <= most_lengths * length))
+  const double length = std::max(bed.rows(), bed.cols()) * bed.cell_size(),
+               above_floor = after - bed.floor(cell.row, cell.col);  // the floor may be as high as it likes
+  if (!(std::min(std::abs(after), above_floor) <= most_lengths * length))
     throw Error(
         ErrorKind::unstable,
         fmt::format(

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "core/error.h"
 #include "sand/ground.h"
 
 namespace sandstroke {
@@ -144,6 +145,17 @@ TEST(SandSources, TakeWhatTheyAskForWhereThereIsEnough) {
   for (int k = 1; k <= 1000; ++k) sources.act(bed, k * tick);
   EXPECT_NEAR(sum_of(sources).taken, 1e-5, 1e-17);
   EXPECT_NEAR(bed.volume(), -1e-5 / density, 1e-20);
+}
+
+TEST(SandSources, MeasureFromTheFloorWhatIsTooHigh) {
+  // 1250 lengths of the bed over z = 0, on a floor there: it is the floor that is so high.
+  HeightField bed = flat_bed();
+  bed.lie_on(std::make_shared<Ground>(bed, 100.0, 0.6));
+  SandSources sources({source_at({0.0, 0.0, 100.01}, 0.01, 0.1)}, density);
+  EXPECT_NO_THROW(sources.act(bed, 1.0));
+  EXPECT_NEAR(sources.ledgers()[0].landed, 0.001, 1e-15);
+  SandSources far_more({source_at({0.0, 0.0, 100.01}, 1e4, 0.1)}, density);
+  EXPECT_THROW(far_more.act(bed, 1.0), Error);
 }
 
 TEST(SandSources, FollowAPathAndAreClosedWhereItIsLifted) {
