@@ -16,18 +16,25 @@ struct JudgedRun {
   RunResult result;    ///< empty where the run was refused
   double overshoot =
       0.0;  ///< how far the end leaves the range of the starting heights, as a fraction of the highest
+  std::string bits;  ///< hash of the surface at the end, and of all forces on the way
 };
 
-/// Checks a scene as for a user (check_scene, Simulation), runs it and judges it, in this order:
+/// Checks a scene as for a user (check_scene, Simulation), lays the bed on the scene's ground, runs it and
+/// judges it, in this order:
 /// - refused: one of the checks threw an Error.
-/// - broken: a height or figure is not a number; or more volume is lost than 1e-12 of the moved volume plus
-///   the rounding of the bed's sum; or a height left the range of the starting ones. The range is checked
-///   without a stroke only, and where relaxation is monotone (every law but `paper`; rkl, which takes back
-///   steps that are not).
+/// - broken: a height, figure or force is not a number; or sand lies below the floor, if by a bit, in the end
+///   or between passes; or more volume is lost than 1e-12 of the moved volume plus the rounding of the bed's
+///   sum; or a height left the range of the starting ones. The range is checked without a stroke and sources
+///   only, and where relaxation is monotone (every law but `paper`; rkl, which takes back steps that are
+///   not).
 /// - not_converged: the sand is not at rest in the end.
 /// - stable: none of these.
 JudgedRun judged_run(const Scene& scene, const HeightField& bed, const std::optional<Stroke>& stroke = {},
                      Observers observers = {});
+
+/// The same on one thread, then on several: broken if a bit of heights or forces differs.
+JudgedRun judged_on_threads(const Scene& scene, const HeightField& bed,
+                            const std::optional<Stroke>& stroke = {});
 
 /// Reports many variations of one idea as one case. The case is a surprise if any variation is one.
 class Variations {

@@ -9,10 +9,10 @@ StressReport stress_all(const StressOptions& options) {
     void (*run)(StressReport&, const StressOptions&);
     double end;  // fraction of the whole test that is done after it
   };
-  constexpr Part parts[] = {{stress_device_loop, 0.4},
-                            {stress_contact_loops, 0.42},
-                            {stress_relaxation, 0.8},
-                            {stress_strokes, 1.0}};
+  constexpr Part parts[] = {{stress_device_loop, 0.4}, {stress_contact_loops, 0.42},
+                            {stress_relaxation, 0.75}, {stress_grounds, 0.8},
+                            {stress_sources, 0.82},    {stress_stone_strokes, 0.84},
+                            {stress_any_ground, 0.9},  {stress_strokes, 1.0}};
   StressReport report;
   double begin = 0.0;
   for (const Part& part : parts) {

@@ -18,6 +18,14 @@ StressReport stress_scene(const LoopSettings& own, const StressOptions& options)
 void stress_device_loop(StressReport& report, const StressOptions& options);
 /// Relaxes beds that no user would draw.
 void stress_relaxation(StressReport& report, const StressOptions& options);
+/// Lays sand on floors and stones, and makes it of kinds, as no user would.
+void stress_grounds(StressReport& report, const StressOptions& options);
+/// Pours and takes sand as no nozzle would.
+void stress_sources(StressReport& report, const StressOptions& options);
+/// Takes tools into stones.
+void stress_stone_strokes(StressReport& report, const StressOptions& options);
+/// Draws whole scenes with grounds, sources and strokes at random.
+void stress_any_ground(StressReport& report, const StressOptions& options);
 /// Takes tools round closed loops in sand.
 void stress_contact_loops(StressReport& report, const StressOptions& options);
 /// Runs strokes that no hand would make.

@@ -53,6 +53,33 @@ TEST(JudgedRun, TellsHowFarThePapersLawLeavesTheRange) {
   EXPECT_GT(run.overshoot, 0.0);
 }
 
+TEST(JudgedRun, LaysTheBedOnItsGroundAndLooksBelowItsFloor) {
+  Scene scene = small_scene();
+  scene.ground.floor = 0.02;
+  const JudgedRun run = judged_run(scene, cliff(scene));
+  EXPECT_EQ(run.verdict, Verdict::stable) << run.reason;
+  EXPECT_GT(run.result.volume_initial, 0.05 * 0.1 * 0.05 + 0.9 * 0.02 * 0.1 * 0.05);  // lifted onto the floor
+}
+
+TEST(JudgedRun, DoesNotTakePouredSandForLostOrOutOfRange) {
+  Scene scene = small_scene();
+  SourceSettings& source = scene.sources.emplace_back();
+  source.rate = 0.5;
+  source.stop = 0.2;
+  const JudgedRun run = judged_run(scene, HeightField(10, 10, 0.01));
+  EXPECT_EQ(run.verdict, Verdict::stable) << run.reason;
+  EXPECT_GT(run.result.given_volume, 0.0);
+}
+
+TEST(JudgedRun, HasTheSameBitsForTheSameSceneAndOthersForAnother) {
+  Scene scene = small_scene();
+  const JudgedRun run = judged_run(scene, cliff(scene)), threads = judged_on_threads(scene, cliff(scene));
+  EXPECT_EQ(threads.verdict, Verdict::stable) << threads.reason;
+  EXPECT_EQ(run.bits, threads.bits);
+  scene.relaxation.talus_angle = 31.0;
+  EXPECT_NE(judged_run(scene, cliff(scene)).bits, run.bits);
+}
+
 TEST(Variations, NamesTheFirstThatSurprised) {
   JudgedRun rests, loses;
   rests.verdict = Verdict::stable;

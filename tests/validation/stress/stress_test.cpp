@@ -14,12 +14,13 @@ struct Part {
 };
 
 class StressPart : public testing::TestWithParam<Part> {};
-INSTANTIATE_TEST_SUITE_P(Quick, StressPart,
-                         testing::Values(Part{"DeviceLoop", stress_device_loop},
-                                         Part{"ContactLoops", stress_contact_loops},
-                                         Part{"Relaxation", stress_relaxation},
-                                         Part{"Strokes", stress_strokes}),
-                         [](const auto& part) { return part.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Quick, StressPart,
+    testing::Values(Part{"DeviceLoop", stress_device_loop}, Part{"ContactLoops", stress_contact_loops},
+                    Part{"Relaxation", stress_relaxation}, Part{"Grounds", stress_grounds},
+                    Part{"Sources", stress_sources}, Part{"StoneStrokes", stress_stone_strokes},
+                    Part{"AnyGround", stress_any_ground}, Part{"Strokes", stress_strokes}),
+    [](const auto& part) { return part.param.name; });
 
 TEST_P(StressPart, HasNoSurpriseAndSaysHowFarItIs) {
   StressReport report;
