@@ -148,7 +148,7 @@ Laid lay_on_sphere(int cells) {
 }
 
 Problem stone_problem(const char* name, const char* title, const char* text) {
-  return {name, title, text, "volume_error", "sand that stays on the stone, relative", "", {}};
+  return {name, title, text, "volume_error", "sand that stays on the stone, relative error", "", {}};
 }
 
 }  // namespace
@@ -172,7 +172,7 @@ Problem ridge_problem(const ProblemOptions& options) {
       "A heap relaxes over a seam of two sands, 25 and 35 degrees, that is turned by 22.5 degrees; "
       "the truth is the slope of each flank, along the seam's normal.",
       "slope_error_largest",
-      "slope of the worse flank",
+      "slope error of the worse flank",
       "deg",
       {}};
   add_round_curves(problem, options, {{48, 64, 96, 128, 192}, 128, 96}, lay_ridge);
