@@ -7,6 +7,7 @@
 #include "core/angle.h"
 #include "core/compensated_sum.h"
 #include "core/elementary.h"
+#include "sand/ground.h"
 
 namespace sandstroke {
 namespace {

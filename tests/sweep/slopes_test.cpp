@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "sand/all_laws.h"
+#include "sand/ground.h"
 #include "sand/relaxation.h"
 
 namespace sandstroke {
