@@ -173,7 +173,8 @@ std::optional<SceneFile> felt_scene(const RecordArguments& arguments) {
           arguments.felt_scene, key, name);
   if (!scene.ground.empty())
     throw_input_error(
-        "{}: has a bed.floor, a [[stone]], a [sand.map], a [[sand.region]] or a [[sand.layer]], which record --feel does "
+        "{}: has a bed.floor, a [[stone]], a [sand.map], a [[sand.region]] or a [[sand.layer]], which record "
+        "--feel does "
         "not know yet; "
         "remove them from the scene",
         arguments.felt_scene);

@@ -175,7 +175,8 @@ SceneHere with_python_laws(SceneHere here, const py::dict& laws) {
     throw_input_error("laws: the scene already has laws from model.plugin; remove one of the two");
   if (!here.scene.ground.empty())
     throw_input_error(
-        "laws: a law of your own knows no bed.floor, stone, sand.map, sand.region or sand.layer; remove them from the "
+        "laws: a law of your own knows no bed.floor, stone, sand.map, sand.region or sand.layer; remove them "
+        "from the "
         "scene, or leave the laws out");
   auto made = std::make_shared<PluginLaws>();
   for (const auto& [key, function] : laws) {
