@@ -373,7 +373,8 @@ def test_floor_and_sources_are_told(small):
     sim = sandstroke.Simulation(small)
     assert sim.floor is None and sim.sources == []
     pouring = sandstroke.Simulation(small, settings={
-        "bed.floor": -0.01, "source": [{"at": [0.0, 0.0, 0.05], "rate": 0.01}, {"at": [0.05, 0.0, -0.005], "rate": -1.0}]})
+        "bed.floor": -0.01, "source": [{"at": [0.0, 0.0, 0.05], "rate": 0.01, "stop": 1.0},
+                                      {"at": [0.05, 0.0, -0.005], "rate": -1.0, "stop": 1.0}]})
     assert np.array_equal(pouring.floor, np.full(pouring.heights.shape, -0.01))
     for _ in range(200):
         pouring.tick((0.0, 0.0, 0.2), down=False)
