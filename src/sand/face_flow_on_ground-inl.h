@@ -92,13 +92,21 @@ class FacesOnGround {
   double* right(int row) const { return scratch_.factors.data() + TilePatch::start(row); }
   double* below(int row) const { return scratch_.below.data() + TilePatch::start(row); }
 
-  /// Limits the fluxes [m per pass] through the faces beside the flagged cells. Returns the faces through
-  /// which sand flows.
-  HWY_INLINE RightFaces to_the_right(int row, std::uint64_t cells) const {
-    return flowing_to_the_right(cells, [&](int begin) { return limit(row, begin, 0); });
-  }
-  HWY_INLINE std::uint64_t downwards(int row, std::uint64_t cells) const {
-    return flowing_downwards(cells, [&](int begin) { return limit(row, begin, 1); });
+  /// Limits the fluxes [m per pass] through the faces below eight cells (down: 1), or to the right of them
+  /// (0). Returns flags of those through which sand flows.
+  HWY_INLINE unsigned group_of_faces(int row, int begin, int down) const {
+    double* out = (down ? below(row) : right(row)) + begin;
+    const double* own = scales(row) + begin;
+    const double* next = down ? own + TilePatch::stride : own + 1;
+    unsigned flags = 0;
+    for (int c = 0; c < group; c += lanes) {
+      const V flux = hn::Load(d, out + c);
+      const Mask flows = flux != hn::Zero(d);
+      const V scale = hn::IfThenElse(flux > hn::Zero(d), hn::Load(d, own + c), hn::LoadU(d, next + c));
+      hn::Store(where(flows, flux * scale), d, out + c);
+      flags |= bits(flows) << c;
+    }
+    return flags;
   }
 
  private:
@@ -156,20 +164,6 @@ class FacesOnGround {
       hn::Store(hn::IfThenElse(emptied, most / out, all(1.0)), d, scales(row) + c);
       flag_films(row, c, emptied, scratch_);
     }
-  }
-  HWY_INLINE unsigned limit(int row, int begin, int down) const {
-    double* out = (down ? below(row) : right(row)) + begin;
-    const double* own = scales(row) + begin;
-    const double* next = down ? own + TilePatch::stride : own + 1;
-    unsigned flags = 0;
-    for (int c = 0; c < group; c += lanes) {
-      const V flux = hn::Load(d, out + c);
-      const Mask flows = flux != hn::Zero(d);
-      const V scale = hn::IfThenElse(flux > hn::Zero(d), hn::Load(d, own + c), hn::LoadU(d, next + c));
-      hn::Store(where(flows, flux * scale), d, out + c);
-      flags |= bits(flows) << c;
-    }
-    return flags;
   }
 
   LawOnGround ground_;
