@@ -174,9 +174,7 @@ std::optional<SceneFile> felt_scene(const RecordArguments& arguments) {
   if (!scene.ground.empty())
     throw_input_error(
         "{}: has a bed.floor, a [[stone]], a [sand.map], a [[sand.region]] or a [[sand.layer]], which record "
-        "--feel does "
-        "not know yet; "
-        "remove them from the scene",
+        "--feel does not know yet; remove them from the scene",
         arguments.felt_scene);
   if (!scene.sources.empty())
     throw_input_error(

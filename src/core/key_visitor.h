@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,15 @@ void choose(KeyVisitor& visitor, const char* key, Enum& value, const std::vector
   int index = static_cast<int>(value);
   visitor.choice(key, index, names, help);
   value = static_cast<Enum>(index);
+}
+
+/// A number that counts where it is given.
+inline void show_if_given(KeyVisitor& visitor, const char* key, std::optional<double>& value, Range range,
+                          const char* unit, const char* help) {
+  if (!(visitor.reads() ? visitor.given(key) : value.has_value())) return;
+  double number = value.value_or(0.0);
+  visitor.number(key, number, range, unit, help);
+  value = number;
 }
 
 /// A list of tables ([[name]]) whose keys `show` shows: show(visitor, one of the settings).

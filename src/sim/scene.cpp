@@ -18,12 +18,8 @@ namespace {
 void describe_map(KeyVisitor& v, SurfaceSettings& s) {
   if (v.reads() || s.scale != 1.0)
     v.number("scale", s.scale, positive, "", "bed metres per metre of a map, of lengths and heights");
-  if (v.reads() ? v.given("nodata") : s.nodata.has_value()) {
-    double height = s.nodata.value_or(0.0);
-    v.number("nodata", height, any_number, "m",
-             "height of a map's cells without data; left out: they are refused");
-    s.nodata = height;
-  }
+  show_if_given(v, "nodata", s.nodata, any_number, "m",
+                "height of a map's cells without data; left out: they are refused");
 }
 
 void describe_bed(KeyVisitor& v, BedSettings& bed, GroundSettings& ground) {

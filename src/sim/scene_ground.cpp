@@ -13,15 +13,6 @@ namespace {
 
 constexpr double highest = 1000.0;  // m
 
-/// A number that counts where it is given.
-void show_own(KeyVisitor& v, const char* key, std::optional<double>& value, double usual, Range range,
-              const char* unit, const char* help) {
-  if (!(v.reads() ? v.given(key) : value.has_value())) return;
-  double number = value.value_or(usual);
-  v.number(key, number, range, unit, help);
-  value = number;
-}
-
 void describe_region(KeyVisitor& v, SandRegion& region) {
   choose(v, "shape", region.shape, {"rectangle", "circle", "polygon"}, "its outline");
   if (region.shape != RegionShape::polygon)
@@ -35,22 +26,22 @@ void describe_region(KeyVisitor& v, SandRegion& region) {
   }
   v.number("soft", region.soft, not_negative, "m",
            "width of the band around its edge in which the sand's kind changes; 0: a sharp edge");
-  show_own(v, "talus_angle", region.talus_angle, 30.0, sharp_angle, "deg",
-           "angle of repose of its sand, instead of relaxation.talus_angle");
-  show_own(v, "friction_angle", region.friction_angle, 30.0, friction_angles, "deg",
-           "its sand's internal friction, instead of force.friction_angle");
-  show_own(v, "density", region.density, 1560.0, positive, "kg/m^3",
-           "its sand's bulk density under the tool, instead of force.density");
-  show_own(v, "k_s", region.k_s, 1000.0, not_negative, "N", "instead of force.k_s");
+  show_if_given(v, "talus_angle", region.talus_angle, sharp_angle, "deg",
+                "angle of repose of its sand, instead of relaxation.talus_angle");
+  show_if_given(v, "friction_angle", region.friction_angle, friction_angles, "deg",
+                "its sand's internal friction, instead of force.friction_angle");
+  show_if_given(v, "density", region.density, positive, "kg/m^3",
+                "its sand's bulk density under the tool, instead of force.density");
+  show_if_given(v, "k_s", region.k_s, not_negative, "N", "instead of force.k_s");
 }
 
 void describe_layer(KeyVisitor& v, SandLayer& layer) {
   if (v.reads()) v.require("top");
   v.number("top", layer.top, {-highest, highest, false}, "m", "height of the level plane below which it is");
-  show_own(v, "friction_angle", layer.friction_angle, 30.0, friction_angles, "deg",
-           "its internal friction, instead of force.friction_angle");
-  show_own(v, "density", layer.density, 1560.0, positive, "kg/m^3",
-           "its bulk density, instead of force.density");
+  show_if_given(v, "friction_angle", layer.friction_angle, friction_angles, "deg",
+                "its internal friction, instead of force.friction_angle");
+  show_if_given(v, "density", layer.density, positive, "kg/m^3",
+                "its bulk density, instead of force.density");
 }
 
 void describe_stone(KeyVisitor& v, StoneSettings& stone) {
@@ -91,9 +82,10 @@ double lowest_sand(const SurfaceSettings& surface) {
 }  // namespace
 
 void describe_floor(KeyVisitor& v, GroundSettings& ground) {
-  show_own(v, "floor", ground.floor, 0.0, {-highest, highest, false}, "m",
-           "height of a level floor under the sand, such as the wood of a box; left out: the sand is as deep "
-           "as may be");
+  show_if_given(
+      v, "floor", ground.floor, {-highest, highest, false}, "m",
+      "height of a level floor under the sand, such as the wood of a box; left out: the sand is as deep "
+      "as may be");
 }
 
 void describe_ground(KeyVisitor& v, GroundSettings& ground) {
