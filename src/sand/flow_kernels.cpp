@@ -215,8 +215,8 @@ void count_flows(const TileFluxes& fluxes, const FlowScratch& scratch, const Tal
     for_vectors(groups_of(flow.moved[row]), [&](int c) {
       const auto film = [&](int r, int col) { return cells_from(scratch.films[r + 1], col); };
       CellFaces faces(fluxes.right->row(row) + c, fluxes.below->row(row) + c);
-      const auto leave_out = [](V& flow, Mask given_by_a_film) {
-        flow = hn::IfThenZeroElse(given_by_a_film, flow);
+      const auto leave_out = [](V& into_the_cell, Mask given_by_a_film) {
+        into_the_cell = hn::IfThenZeroElse(given_by_a_film, into_the_cell);
       };
       leave_out(faces.east, hn::And(faces.east < zero, film(row, c + 1)));
       leave_out(faces.west, hn::And(faces.west > zero, film(row, c - 1)));
