@@ -6,6 +6,7 @@
 #include <array>
 
 #include "python/module_parts.h"
+#include "sand/ground.h"
 
 namespace sandstroke {
 namespace {
