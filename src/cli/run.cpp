@@ -143,6 +143,9 @@ void check_outputs(const RunArguments& arguments, const SceneFile& scene, const 
   check(arguments.video, film_output);
   if (scene.output.frames == 0.0)
     throw_input_error("--video needs frames, and this run keeps none; add --frames 10");
+  if (scene.only_relaxes())
+    throw_input_error(
+        "--video needs frames, and this scene has none: it has no stroke and no source, so no time passes");
   check_film_program(arguments.video);
 }
 

@@ -25,8 +25,7 @@ namespace fs = std::filesystem;
 
 bool keeps_state(const Scene& scene) {
   const PluginLawSettings& laws = scene.plugin_laws;
-  return (scene.stroke || !scene.sources.empty()) && laws.relaxation.empty() && laws.displacement.empty() &&
-         laws.force.empty();
+  return !scene.only_relaxes() && laws.relaxation.empty() && laws.displacement.empty() && laws.force.empty();
 }
 
 fs::path state_path(const fs::path& run_file) {

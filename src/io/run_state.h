@@ -32,8 +32,7 @@ struct RunState {
 
 inline constexpr OutputKind run_state_output{"a run's state", "sandstroke run state 1\n"};
 
-/// False for a scene without stroke and sources, whose sand only relaxes, and for one with a plugin's law,
-/// whose state is not known.
+/// False for a scene that only relaxes, and for one with a plugin's law, whose state is not known.
 bool keeps_state(const Scene& scene);
 
 /// The file beside a run file that keeps the run's state until it is complete: PATH.state.

@@ -167,7 +167,7 @@ bool is_complete(const std::filesystem::path& output, const std::string& scene,
 /// Says of a run that keeps no state, before any work, why not. Error: input.
 void check_keeps_state(const Scene& scene) {
   if (keeps_state(scene)) return;
-  if (scene.stroke || !scene.sources.empty())
+  if (!scene.only_relaxes())
     throw_input_error(
         "the state of a plugin's law is not known, so a run with one keeps none; leave --checkpoint and "
         "--resume out");
@@ -186,6 +186,11 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
 
   const bool keeps = options.checkpoint > 0.0 || options.resume;
   if (keeps) check_keeps_state(scene);
+  if (scene.only_relaxes() && scene.output.frames > 0.0)
+    spdlog::warn(
+        "the scene has no stroke and no source, so the run keeps no frames: no time passes; take "
+        "output.frames "
+        "out");
   if (!options.resume && !output.empty()) check_no_state(output);
   const auto [stroke, stroke_name, stroke_hash] = load_placed(scene, options);
   if (options.second) second_scene(scene, *options.second);  // if this is refused, then before any work

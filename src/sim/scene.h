@@ -81,6 +81,9 @@ struct Scene {
   DeviceSettings device;
   std::optional<StrokeSettings> stroke;  ///< without one, the bed is only relaxed
   OutputSettings output;
+
+  /// Whether no time passes: there is no stroke and no source, and the sand only comes to rest.
+  bool only_relaxes() const { return !stroke && sources.empty(); }
 };
 
 /// Whether the force comes from the contact: by a plugin law, or by any law but the paper's.

@@ -64,6 +64,24 @@ TEST(CliRun, GoesOnFromItsOwnRunInOneCommand) {
   EXPECT_NE(wrong.err.find("--unset strike: scene.toml has no such key"), std::string::npos) << wrong.err;
 }
 
+TEST(CliRun, ARunThatOnlyRelaxesSaysThatItKeepsNoFrames) {
+  const fs::path folder = test_folder();
+  write_file(folder / "scene.toml", "[bed]\nsize = [0.3, 0.2]\ncells = [60, 40]\n");
+  const auto run = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"run", "scene.toml"});
+    return run_program(words, folder);
+  };
+  const ProgramResult result = run({"-o", "a.h5", "--frames", "20"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("no source, so the run keeps no frames"), std::string::npos) << result.err;
+  EXPECT_TRUE(RunFile(folder / "a.h5").frame_times().empty());
+  EXPECT_EQ(run({"-o", "b.h5"}).err.find("frames"), std::string::npos);
+  const ProgramResult film = run({"-o", "c.h5", "--frames", "20", "--video", "c.mp4"});
+  EXPECT_EQ(film.exit_code, 2);
+  EXPECT_NE(film.err.find("this scene has none: it has no stroke"), std::string::npos) << film.err;
+  EXPECT_FALSE(fs::exists(folder / "c.h5"));
+}
+
 TEST(CliRun, StrictEndsWithCode3WhereThereIsAWarningWhoseWordJsonGives) {
   const fs::path folder = test_folder();
   struct Doubt {
