@@ -78,7 +78,7 @@ TEST(LiveBed, GivesTheFloorUnderTheSandOnceWhereThereIsOne) {
       const CellRange cells = floor.tile_cells(tile);
       for (int row = cells.row_begin; row < cells.row_end; ++row)
         for (int col = cells.col_begin; col < cells.col_end; ++col)
-          if (floor(row, col) == none) floor.set(row, col, LiveBed::no_floor);
+          if (floor(row, col) == none) floor.set(row, col, static_cast<double>(LiveBed::no_floor));
       expect_is(all[20 + tile], floor, tile);
     }
     bed.set(100, 150, 0.5);
