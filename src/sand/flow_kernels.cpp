@@ -88,24 +88,30 @@ struct IsotropicFactors {
   }
 };
 
+/// Computes the factors of eight cells. Returns flags of those that are not 0.
+template <class Factors, class Sand>
+HWY_INLINE unsigned factor_group(const Factors& factors_of, const double* heights, double* factors, int row,
+                                 int begin, Sand& sand) {
+  unsigned flags = 0;
+  for (int c = begin; c < begin + group; c += lanes)
+    flags |= factors_of(heights, row, c, factors, sand.may_give(row, c), sand) << (c - begin);
+  return flags;
+}
+
 /// Computes the factors of a row's flagged groups. (Others keep their old factors, which no active cell
 /// sees.) Returns the cells whose factor is not 0.
 template <class Factors, class Sand>
 HWY_INLINE WideRow factor_row(const Factors& factors_of, const double* heights, double* factors, int row,
                               const WideRow& cells, Sand& sand) {
-  const auto one_group = [&](int begin) {
-    unsigned flags = 0;
-    for (int c = begin; c < begin + group; c += lanes)
-      flags |= factors_of(heights, row, c, factors, sand.may_give(row, c), sand) << (c - begin);
-    return flags;
-  };
   WideRow moving{};
-  if (cells.west) moving.west = (one_group(-group) >> (group - 1)) & 1;
+  if (cells.west)
+    moving.west = (factor_group(factors_of, heights, factors, row, -group, sand) >> (group - 1)) & 1;
   for (unsigned wanted = groups_of(cells.own); wanted; wanted &= wanted - 1) {
     const int begin = std::countr_zero(wanted) * group;
-    moving.own |= static_cast<std::uint64_t>(one_group(begin)) << begin;
+    const std::uint64_t flags = factor_group(factors_of, heights, factors, row, begin, sand);
+    moving.own |= flags << begin;
   }
-  if (cells.east) moving.east = one_group(side) & 1;
+  if (cells.east) moving.east = factor_group(factors_of, heights, factors, row, side, sand) & 1;
   return moving;
 }
 
@@ -263,14 +269,16 @@ void ComputeFlow(const TalusLaw& law, const TilePatch& patch, const CellFlags& a
   }
 }
 
-void ApplyFlow(const TileFlow& flow, const GroundPatch* ground, TilePatch& patch, CellFlags& changed) {
+/// ground: null where there is none.
+template <bool on_ground>
+HWY_INLINE void apply(const TileFlow& flow, const GroundPatch* ground, TilePatch& patch, CellFlags& changed) {
   for (int row = flow.rows.begin; row < flow.rows.end; ++row) {
     std::uint64_t flags = 0;
     for_vectors(groups_of(flow.moved[row]), [&](int c) {
       double* cell = patch.heights(row) + c;
       const V old = hn::Load(d, cell);
       V next = old + hn::Load(d, flow.gain.data() + row * side + c);
-      if (ground) {
+      if (on_ground) {
         const V floor = hn::Load(d, ground->floor.row(row) + c);
         next = hn::IfThenElse(next < floor, floor, next);  // walls stay NaN
       }
@@ -279,6 +287,9 @@ void ApplyFlow(const TileFlow& flow, const GroundPatch* ground, TilePatch& patch
     });
     changed[row] = flags & flow.moved[row];  // a wall (NaN) beside them always compares as changed
   }
+}
+void ApplyFlow(const TileFlow& flow, const GroundPatch* ground, TilePatch& patch, CellFlags& changed) {
+  return ground ? apply<true>(flow, ground, patch, changed) : apply<false>(flow, ground, patch, changed);
 }
 
 }  // namespace HWY_NAMESPACE
