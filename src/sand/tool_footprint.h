@@ -40,7 +40,7 @@ class ToolFootprint {
   double first_y() const { return first_y_; }
   double cell_size() const { return bed_.cell_size(); }
   /// The columns of a row of the window that have sand.
-  ColumnRange sand_cols(int row) const {
+  [[gnu::always_inline]] ColumnRange sand_cols(int row) const {  // each kernel asks it of each row
     const ColumnRange sand = bed_.sand_cols(cells_.row_begin + row);
     return {std::max(sand.begin - cells_.col_begin, 0),
             std::min(sand.end, cells_.col_end) - cells_.col_begin};
