@@ -188,9 +188,8 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
   if (keeps) check_keeps_state(scene);
   if (scene.only_relaxes() && scene.output.frames > 0.0)
     spdlog::warn(
-        "the scene has no stroke and no source, so the run keeps no frames: no time passes; take "
-        "output.frames "
-        "out");
+        "the scene has no stroke and no source, so the run keeps no frames, as no time passes; take out "
+        "output.frames");
   if (!options.resume && !output.empty()) check_no_state(output);
   const auto [stroke, stroke_name, stroke_hash] = load_placed(scene, options);
   if (options.second) second_scene(scene, *options.second);  // if this is refused, then before any work
