@@ -59,7 +59,7 @@ void add_bench_command(CLI::App& app, Command& chosen) {
       ->type_name("FOLDER")
       ->capture_default_str();
   command->add_flag("--quick", arguments->study.quick,
-                    "Take 15 seconds instead of 5 minutes, with coarser grids and shorter strokes");
+                    "Take about 80 seconds, with coarser grids and shorter strokes");
   command
       ->add_option(
           "--repeats", arguments->study.repeats,

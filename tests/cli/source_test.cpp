@@ -98,7 +98,7 @@ TEST(CliSource, IsRefusedByOneSentence) {
 
 TEST(CliSource, OfARunThatWasStoppedGoesOn) {
   const fs::path folder = test_folder();
-  write_file(folder / "cone.toml", "[bed]\nsize = [0.2, 0.2]\ncells = [400, 400]\n[output]\nframes = 20\n" +
+  write_file(folder / "cone.toml", "[bed]\nsize = [0.2, 0.2]\ncells = [100, 100]\n[output]\nframes = 20\n" +
                                        cone + "[[source]]\nat = [0.0, 0.0, 0.5]\nrate = 0.02\nstop = 2.0\n");
   const auto run = [&](std::vector<std::string> words, const Conditions& conditions = {}) {
     words.insert(words.begin(), {"run", "cone.toml"});

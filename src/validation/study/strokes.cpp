@@ -140,7 +140,7 @@ Problem stroke_problem(const StrokeCase& given, const ProblemOptions& options) {
   const ModelPreset preset = given.preset;
   const Stroke stroke = given.stroke;
   const bool paper = preset == ModelPreset::paper;
-  const int finest = options.quick || given.at_rim ? 4 : 8;
+  const int finest = (options.quick ? 4 : 8) / (given.at_rim ? 2 : 1);
   const std::string all_finer = "all finer";
   Problem problem = described(given, finest);
   const auto all = [preset](int by) { return refined(preset, by, by); };
