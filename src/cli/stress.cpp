@@ -169,7 +169,7 @@ void add_stress_command(CLI::App& app, Command& chosen) {
                        "settings")
           ->type_name("SCENE");
   command->add_flag("--quick", arguments->quick,
-                    "Take 25 seconds instead of 10 minutes, with coarser maps, fewer and shorter cases");
+                    "Take 45 seconds instead of 10 minutes, with coarser maps, fewer and shorter cases");
   arguments->plugin.add_to(*command, "Plugin (.so) whose laws are tested instead of the program's");
   command->get_option("--plugin")->excludes(scene);
   command->add_flag("--json", arguments->json,
