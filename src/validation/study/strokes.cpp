@@ -127,9 +127,8 @@ Problem described(const StrokeCase& given, int finest) {
   return {given.name,
           given.title,
           fmt::format("At 2 kHz. The reference is the same stroke with cell size and the time or way between "
-                      "relaxations divided by {}. The dotted line is its distance from the stroke with these "
-                      "divided by {}.",
-                      finest, finest / 2),
+                      "relaxations divided by {}. The dotted line is its distance from the run \"{}\".",
+                      finest, label_of(finest / 2)),
           "l1",
           "misplaced sand, fraction of the sand that moves",
           "",
