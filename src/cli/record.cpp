@@ -176,6 +176,11 @@ std::optional<SceneFile> felt_scene(const RecordArguments& arguments) {
         "{}: has a bed.floor, a [[stone]], a [sand.map], a [[sand.region]] or a [[sand.layer]], which record "
         "--feel does not know yet; remove them from the scene",
         arguments.felt_scene);
+  if (scene.moisture)
+    throw_input_error(
+        "{}: has a [moisture], which record --feel does not know yet: a wall that fails takes longer than a "
+        "tick; remove it from the scene",
+        arguments.felt_scene);
   if (!scene.sources.empty())
     throw_input_error(
         "{}: record --feel takes no [[source]], because its servo loop only moves what the tool moves; "

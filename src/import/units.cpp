@@ -19,7 +19,7 @@ struct ListedUnit {
   bool exact_symbol = false;  ///< large letters mean another unit
 };
 
-constexpr double gravity = 9.80665;  // m/s^2, standard
+constexpr double standard_gravity = 9.80665;  // m/s^2, standard
 
 constexpr ListedUnit named_units[] = {
     {Quantity::length, "m meter meters metre metres", {1, 1}},
@@ -49,8 +49,8 @@ constexpr ListedUnit named_units[] = {
     {Quantity::force, "N newton newtons", {1, 1}},
     {Quantity::force, "mN millinewton millinewtons", {1, 1e3}, true},
     {Quantity::force, "kN kilonewton kilonewtons", {1e3, 1}},
-    {Quantity::force, "gf gram-force grams-force", {gravity, 1e3}},
-    {Quantity::force, "kgf kilogram-force kilograms-force", {gravity, 1}},
+    {Quantity::force, "gf gram-force grams-force", {standard_gravity, 1e3}},
+    {Quantity::force, "kgf kilogram-force kilograms-force", {standard_gravity, 1}},
     {Quantity::force, "lbf pound-force pounds-force", {4.4482216152605, 1}},
 };
 

@@ -6,6 +6,8 @@
 
 namespace sandstroke {
 
+inline constexpr double gravity = 9.81;  ///< m/s^2, of sand that falls or lies
+
 /// paper: of depth and velocity, as published. rft, archimedes: of the contact (sim/contact_force.h).
 enum class ForceLaw { paper, rft, archimedes };
 enum class DragDirection { horizontal, full };

@@ -38,6 +38,7 @@
 #include "sand/ground.h"
 #include "sim/check_sources.h"
 #include "sim/device_force.h"
+#include "sim/scene_moisture.h"
 #include "sim/tool_fit.h"
 
 namespace sandstroke {
@@ -204,6 +205,7 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
     warn_if_any(WarningCode::tool_coarse,
                 coarse_tool_warning(scene, deepest_point(scene, simulation.bed(), *stroke).depth));
   }
+  warn_if_any(WarningCode::moisture_coarse, coarse_moisture_warning(scene));
   if (!output.empty() && simulation.seconds() > 0.0)
     check_disk(output, least_bytes(simulation),
                "choose another place, free disk space, or store less: output.trace = false, fewer "

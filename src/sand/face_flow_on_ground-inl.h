@@ -30,6 +30,9 @@ struct FaceOnGround {
     drop = m - next;
     falls = drop > zero;
     const V z = ground.sand(row, c, m), next_z = ground.sand(next_row, next_col, next);
+    const Mask has_sand = hn::And(ground.has_sand(hn::IfThenElse(falls, z, next_z)), hn::Abs(drop) > zero);
+    square = zero;
+    if (hn::AllFalse(d, has_sand)) return;
     // A giver at the rim's outer edge gives to no cell that counts; what lies behind it is not loaded.
     const int back = down && row == -TilePatch::rim ? 0 : along;
     const int ahead = down && row == TilePatch::side ? along : 2 * along;
@@ -56,8 +59,7 @@ struct FaceOnGround {
     };
     const V sideways =
         all(0.5) * (slope_across(m, z, row, c) + slope_across(next, next_z, next_row, next_col));
-    const Mask has_sand = ground.has_sand(hn::IfThenElse(falls, z, next_z));
-    square = where(hn::And(has_sand, hn::Abs(drop) > zero), slope * slope + sideways * sideways);
+    square = where(has_sand, slope * slope + sideways * sideways);
   }
 };
 

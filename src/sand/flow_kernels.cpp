@@ -185,6 +185,12 @@ HWY_INLINE void flow_on_ground(const TalusLaw& law, const TilePatch& patch, cons
 void keep_fluxes(const TalusLaw& law, const TilePatch& patch, const TileFlow& flow,
                  const FlowScratch& scratch, TileFluxes& fluxes) {
   fluxes.clear();
+  if (const std::uint64_t moved_in = columns_of(flow.moved, flow.rows)) {
+    const int first = std::countr_zero(moved_in) / group * group;
+    fluxes.rows = {flow.rows.begin - 1, flow.rows.end};
+    fluxes.cols = {first - ((moved_in & 1) != 0 ? group : 0),
+                   (63 - std::countl_zero(moved_in)) / group * group + group};
+  }
   const auto keep = [&](int row, int c, Mask cells, int down) {
     const auto at = [&](const auto& values, int r, int col) {
       return hn::LoadU(d, values.data() + TilePatch::start(r) + col);

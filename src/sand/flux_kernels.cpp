@@ -19,9 +19,11 @@ namespace HWY_NAMESPACE {
 constexpr int side = BedGeometry::tile_side;
 
 void AdvanceFluxes(double momentum, double step, FluxTile& tile) {
+  const RowSpan rows = tile.stage.rows = joined(tile.stage.rows, tile.flow.rows),
+                cols = tile.stage.cols = joined(tile.stage.cols, tile.flow.cols);
   const auto advance = [&](PatchHeights& stage, const PatchHeights& flow) {
-    for (int row = -1; row < side; ++row)
-      for (int c = -group; c < side; c += lanes) {
+    for (int row = rows.begin; row < rows.end; ++row)
+      for (int c = cols.begin; c < cols.end; c += lanes) {
         double* D = stage.row(row) + c;
         hn::Store(all(momentum) * hn::Load(d, D) + all(step) * hn::Load(d, flow.row(row) + c), d, D);
       }
@@ -36,7 +38,7 @@ HWY_INLINE V scale_of(const TileFluxes& D, const GroundPatch& ground, const Tile
   const V out = CellFaces(D.right->row(row) + c, D.below->row(row) + c).given();
   const V sand = hn::LoadU(d, patch.heights(row) + c) - hn::LoadU(d, ground.floor.row(row) + c);
   const Mask emptied = hn::And(out > sand, out > hn::Zero(d));
-  return hn::IfThenElse(emptied, sand / out, all(1.0));
+  return hn::AllFalse(d, emptied) ? all(1.0) : hn::IfThenElse(emptied, sand / out, all(1.0));
 }
 
 /// The fluxes of one direction, each limited by its giver's scale.
@@ -49,11 +51,13 @@ HeightRange FluxStage(const GroundPatch& ground, const CellFlags& active, RowSpa
                       TilePatch& patch, SuperStepTile& kept, CellFlags& changed) {
   thread_local PatchHeights scales;
   const TileFluxes& D = tile.stage;
-  for (int row = -1; row <= side; ++row)
-    for (int c = -group; c < side + group; c += lanes)
+  // Elsewhere nothing flows, and all D are 0.
+  const RowSpan face_rows = tile.flow.rows = D.rows, face_cols = tile.flow.cols = D.cols;
+  for (int row = face_rows.begin; row <= face_rows.end; ++row)
+    for (int c = face_cols.begin; c < face_cols.end + group; c += lanes)
       hn::Store(scale_of(D, ground, patch, row, c), d, scales.row(row) + c);
-  for (int row = -1; row < side; ++row)
-    for (int c = -group; c < side; c += lanes) {
+  for (int row = face_rows.begin; row < face_rows.end; ++row)
+    for (int c = face_cols.begin; c < face_cols.end; c += lanes) {
       const double* scale = scales.row(row) + c;
       hn::Store(limited(D.right->row(row) + c, scale, 1), d, tile.flow.right->row(row) + c);
       hn::Store(limited(D.below->row(row) + c, scale, PatchLayout::stride), d, tile.flow.below->row(row) + c);

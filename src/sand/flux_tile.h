@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "sand/ground_patch.h"
 #include "sand/super_step_tile.h"
@@ -12,14 +14,25 @@ namespace sandstroke {
 struct TileFluxes {
   std::unique_ptr<PatchHeights> right = std::make_unique<PatchHeights>(),
                                 below = std::make_unique<PatchHeights>();
-  /// Nothing flows.
-  void clear() {
+  // Where something may flow: rows from -1 on, and columns from -cells_per_group on, in whole groups.
+  RowSpan rows = {}, cols = {};
+
+  TileFluxes() {
     right->fill(0.0);
     below->fill(0.0);
+  }
+  /// Nothing flows.
+  void clear() {
+    for (PatchHeights* fluxes : {right.get(), below.get()})
+      for (int row = rows.begin; row < rows.end; ++row)
+        std::fill_n(fluxes->row(row) + cols.begin, cols.end - cols.begin, 0.0);
+    rows = cols = {};
   }
   void swap(TileFluxes& other) {
     right.swap(other.right);
     below.swap(other.below);
+    std::swap(rows, other.rows);
+    std::swap(cols, other.cols);
   }
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <utility>
 
 namespace sandstroke {
 namespace {
@@ -18,6 +19,9 @@ Ground::Ground(const BedGeometry& bed, double talus_slope)
 
 Ground::Ground(const BedGeometry& bed, double floor_level, double talus_slope)
     : floor(level_field(bed, floor_level)), talus_slopes(level_field(bed, talus_slope)) {}
+
+Ground::Ground(HeightField floor_field, HeightField slopes)
+    : floor(std::move(floor_field)), talus_slopes(std::move(slopes)) {}
 
 double Ground::flattest() const {
   double least = talus_slopes.untouched().highest();

@@ -17,6 +17,8 @@ struct Ground {
   Ground(const BedGeometry& bed, double talus_slope);
   /// A level floor [m] and one slope (rise over run).
   Ground(const BedGeometry& bed, double floor_level, double talus_slope);
+  /// These fields, of one geometry.
+  Ground(HeightField floor, HeightField talus_slopes);
 
   /// The floor [m] where no tile of it is allocated.
   double level() const { return floor.untouched().highest(); }

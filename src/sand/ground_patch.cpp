@@ -1,6 +1,5 @@
 #include "sand/ground_patch.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace sandstroke {
@@ -13,22 +12,25 @@ void GroundPatch::load(const std::shared_ptr<const Ground>& ground, int tile, bo
   has_floor = near_level || ground->has_floor_around(tile);
   constexpr int rim = PatchLayout::rim, side = PatchLayout::side;
   const CellRange cells = ground->floor.tile_cells(tile);
-  const int row_end = std::min(cells.row_end + rim, ground->floor.rows()) - cells.row_begin,
-            col_end = std::min(cells.col_end + rim, ground->floor.cols()) - cells.col_begin;
-  const double cell_size = ground->floor.cell_size(), level = ground->level();
+  const double cell_size = ground->floor.cell_size(), level = ground->level(),
+               none = -std::numeric_limits<double>::infinity();
+  only_drop = ground->talus_slopes.untouched().highest() * cell_size;
+  is_even = !ground->has_slopes_around(tile);
+  const auto take_floor = [&](double there) { return there == level && !near_level ? none : there; };
+  const int floor_slot = ground->floor.slot_of(tile);
   for (int row = -rim; row < side + rim; ++row) {
-    const bool in_rows = cells.row_begin + row >= 0 && row < row_end;
+    const int r = cells.row_begin + row;
+    double *T = axis_drops.row(row), *s = floor.row(row);
     for (int col = -rim; col < side + rim; ++col) {
-      const bool inside = in_rows && cells.col_begin + col >= 0 && col < col_end;
-      double T = std::numeric_limits<double>::quiet_NaN(), s = T;
-      if (inside) {
-        const int r = cells.row_begin + row, c = cells.col_begin + col;
-        T = ground->talus_slopes(r, c) * cell_size;
-        s = ground->floor(r, c);
-        if (s == level && !near_level) s = -std::numeric_limits<double>::infinity();
+      const int c = cells.col_begin + col;
+      if (r < 0 || r >= ground->floor.rows() || c < 0 || c >= ground->floor.cols()) {
+        T[col] = s[col] = std::numeric_limits<double>::quiet_NaN();
+        continue;
       }
-      axis_drops.row(row)[col] = T;
-      floor.row(row)[col] = s;
+      T[col] = is_even ? only_drop : ground->talus_slopes(r, c) * cell_size;
+      const bool own = floor_slot >= 0 && row >= 0 && row < side && col >= 0 && col < side;
+      s[col] =
+          take_floor(own ? ground->floor.tile_heights(floor_slot)[row * side + col] : ground->floor(r, c));
     }
   }
 }

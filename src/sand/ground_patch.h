@@ -12,6 +12,8 @@ struct GroundPatch {
   PatchHeights axis_drops;  ///< T of each cell [m] (TalusGround)
   PatchHeights floor;       ///< m; -infinity where it cannot matter
   bool has_floor = false;   ///< the floor can matter
+  bool is_even = false;     ///< T of all these cells is only_drop
+  double only_drop = 0.0;   ///< m
 
   /// Loads a tile (by index), unless it is loaded. The level floor matters only if `near_level`.
   void load(const std::shared_ptr<const Ground>& ground, int tile, bool near_level);

@@ -28,6 +28,7 @@ struct SandRegion {
   std::optional<double> friction_angle = {};  ///< deg, internal friction
   std::optional<double> density = {};         ///< kg/m^3, of the bulk
   std::optional<double> k_s = {};             ///< N, of the paper's force
+  std::optional<double> cohesion = {};        ///< Pa, of moist sand
 
   bool operator==(const SandRegion&) const = default;
 };

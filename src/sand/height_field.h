@@ -82,6 +82,8 @@ class HeightField : public BedGeometry {
   /// Lays the bed on a ground (sand/ground.h) of the same cells. Sand below its floor is lifted onto it, so
   /// that these cells are bare.
   void lie_on(std::shared_ptr<const Ground> ground);
+  /// Swaps the ground for one whose floor is nowhere above the sand.
+  void exchange_ground(std::shared_ptr<const Ground>& other) { ground_.swap(other); }
   /// Null: none, the sand is as deep as may be, and of one kind.
   const Ground* ground() const { return ground_.get(); }
   const std::shared_ptr<const Ground>& shared_ground() const { return ground_; }

@@ -28,13 +28,17 @@ class LawOnGround {
         thinnest_(all(law.thinnest)),
         most_given_(all(law.most_given)),
         half_(all(0.5)),
+        one_(all(1.0)),
+        is_even_(ground.is_even && ground.only_drop == law.axis_drop),
         ground_(ground) {}
 
   HWY_INLINE const double* axis_drops(int row) const { return ground_.axis_drops.row(row); }
   /// T towards a neighbour, from both cells' T.
   HWY_INLINE V between(V here, V there) const { return half_ * (here + there); }
   /// By what a drop to a neighbour is multiplied, so that it may be as large as the law's T.
-  HWY_INLINE V weight(V here, V there) const { return law_drop / between(here, there); }
+  HWY_INLINE V weight(V here, V there) const {
+    return is_even_ ? one_ : law_drop / between(here, there);  // the same bits
+  }
   /// z [m].
   HWY_INLINE V sand(int row, int c, V height) const {
     return height - hn::LoadU(d, ground_.floor.row(row) + c);
@@ -45,7 +49,8 @@ class LawOnGround {
   V law_drop;
 
  private:
-  V thinnest_, most_given_, half_;
+  V thinnest_, most_given_, half_, one_;
+  bool is_even_;
   const GroundPatch& ground_;
 };
 
@@ -88,7 +93,12 @@ struct IsotropicOnGround {
                                  Sand& sand) const {
     const Around a(heights, c);
     const V z = ground.sand(row, c, a.m);
-    const V square = where(ground.has_sand(z), squared_slope_on(ground, a, row, c));
+    const Mask has_sand = ground.has_sand(z);
+    if (hn::AllFalse(d, has_sand)) {
+      hn::Store(hn::Zero(d), d, factors + c);
+      return 0;
+    }
+    const V square = where(has_sand, squared_slope_on(ground, a, row, c));
     sand.meet(square, hn::Zero(d));
     if (hn::AllFalse(d, square > surely_at_rest)) {
       hn::Store(hn::Zero(d), d, factors + c);

@@ -94,6 +94,10 @@ class Relaxer {
   virtual void visit_state(StateVisitor& /*state*/) {
     throw_input_error("the state of a plugin's law of relaxation is not known; it cannot be kept");
   }
+  /// The time of the next relaxation [s], for sand that changes with it.
+  virtual void set_time(double /*time*/) {}
+  /// Takes over what a relaxer of the same kind remembers of the sand; bed: this one's, a copy of its.
+  virtual void take_over(const Relaxer& /*other*/, const HeightField& /*bed*/) {}
   /// Stops at equilibrium, after max_passes (those that changed something, rejected ones included), or when
   /// interrupted(). Meanwhile the bed keeps its old heights, unless after_pass asks for it (or coarser beds
   /// help: multilevel).

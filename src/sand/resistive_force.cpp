@@ -16,7 +16,6 @@ void apply_sand_preset(SandStrength& sand) {
 }
 
 double resistance(const SandStrength& sand) {
-  constexpr double gravity = 9.81;  // m/s^2
   const double mu = elementary::tan(to_radians(sand.friction_angle));
   return sand.density * gravity * (((894.0 * mu - 386.0) * mu + 89.0) * mu);
 }

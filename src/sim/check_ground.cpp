@@ -73,9 +73,10 @@ void check_region(const SandRegion& region, const BedSettings& bed, const std::s
   for (const double length : region.size) check_length(length, farthest, name, key + ".size");
   check_length(region.radius, farthest, name, key + ".radius");
   check_length(region.soft, farthest, name, key + ".soft");
-  if (!region.talus_angle && !region.friction_angle && !region.density && !region.k_s)
+  if (!region.talus_angle && !region.friction_angle && !region.density && !region.k_s && !region.cohesion)
     throw_input_error(
-        "{}: {} says nothing of its sand; give it a talus_angle, friction_angle, density or k_s", name, key);
+        "{}: {} says nothing of its sand; give it a talus_angle, friction_angle, density, k_s or cohesion",
+        name, key);
   if (is_outside(RegionArea(region).bounds(), bed))
     throw_input_error("{}: {} lies outside the bed of {} m by {} m; change {}.{}, or remove it", name, key,
                       bed.width, bed.depth, key, region.shape == RegionShape::polygon ? "points" : "centre");

@@ -124,7 +124,7 @@ class ContactWrench : public DeviceForce {
           "a guess",
           key, angle);
     }
-    constexpr double gravity = 9.81, most = 0.4;
+    constexpr double most = 0.4;
     const double length = 2.0 * tool_reach(scene.tool), froude = fastest / std::sqrt(gravity * length);
     if (froude <= most) return "";
     return fmt::format(

@@ -20,6 +20,11 @@ class SandAtRest {
   HeightField& follow(const HeightField& bed);
   /// Relaxes the copy, as its relaxer does in one turn.
   RelaxationOutcome relax() { return relaxer_->relax(copy_); }
+  /// The same, with what the bed's relaxer remembers of the sand.
+  RelaxationOutcome relax(const Relaxer& of_the_bed) {
+    relaxer_->take_over(of_the_bed, copy_);
+    return relax();
+  }
   const HeightField& copy() const { return copy_; }
   void visit_state(StateVisitor& state) {
     copy_.visit_state(state);

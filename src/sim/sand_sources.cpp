@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "rules/force.h"
 
 namespace sandstroke {
 namespace {
 
-constexpr double gravity_of_fall = 9.81;  // m/s^2
 /// Heights beyond so many lengths of the bed are mistakes, whose squares may be no numbers any more.
 constexpr double most_lengths = 1000.0;
 
@@ -128,7 +128,7 @@ void SandSources::take(HeightField& bed, Source& sink, const Eigen::Vector3d& mo
 }
 
 double SandSources::fall_time(double from, double to) {
-  return from > to ? std::sqrt(2.0 * (from - to) / gravity_of_fall) : 0.0;  // of a NaN, too
+  return from > to ? std::sqrt(2.0 * (from - to) / gravity) : 0.0;  // of a NaN, too
 }
 
 std::vector<SourceLedger> SandSources::ledgers() const {

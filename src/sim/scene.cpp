@@ -9,6 +9,7 @@
 #include "sim/check_ground.h"
 #include "sim/check_sources.h"
 #include "sim/scene_ground.h"
+#include "sim/scene_moisture.h"
 #include "sim/tool_fit.h"
 
 namespace sandstroke {
@@ -112,9 +113,9 @@ void describe_blend(KeyVisitor& v, SandStrength& sand, bool counts) {
            "changes; 0: the width of the tool's narrowest part");
 }
 
-/// pours: the scene has sources, which need the sand's density.
+/// has_weight: the scene has sources or moist sand, which need the sand's density.
 void describe_force(KeyVisitor& v, ForceSettings& force, SandStrength& sand, const GroundSettings& ground,
-                    bool pours) {
+                    bool has_weight) {
   v.section("force", "the force of the sand on the device");
   choose(v, "law", force.law, {"paper", "rft", "archimedes"},
          "the published law of depth and velocity; resistive force theory over the tool's surface, in "
@@ -125,7 +126,7 @@ void describe_force(KeyVisitor& v, ForceSettings& force, SandStrength& sand, con
     v.number("k_f", force.k_f, not_negative, "s/m", "drag k_f velocity x repulse force");
     choose(v, "drag", force.drag, {"horizontal", "full"}, "part of the velocity that causes drag");
     describe_blend(v, sand, ground.has_k_s());
-    if (pours) describe_density(v, sand);
+    if (has_weight) describe_density(v, sand);
     return;
   }
   choose(v, "sand", sand.preset, {"dry", "quikrete"},
@@ -248,6 +249,7 @@ double memory_of_bed(const Scene& scene) {
                                  ? BedGeometry(bed.rows, bed.cols, bed.cell_size()).tile_count()
                                  : tiles_to_relax(starting_bed(bed), scene.relaxation);
   double per_tile = static_cast<double>(bytes_per_relaxed_tile(scene.relaxation, scene.ground.is_solid()));
+  if (scene.moisture) per_tile += static_cast<double>(HeightField::bytes_per_tile());  // its intact level
   // A run keeps the start of it, to measure what a stroke left.
   if (bed.surface.kind == SurfaceKind::file && scene.stroke)
     per_tile += static_cast<double>(HeightField::bytes_per_tile());
@@ -361,7 +363,9 @@ void describe_scene(KeyVisitor& v, Scene& scene) {
   show_tables(v, "source", scene.sources, "a nozzle that pours sand onto the bed, or takes some from it",
               describe_source);
 
-  describe_force(v, scene.force, scene.strength, scene.ground, !scene.sources.empty());
+  describe_moisture(v, scene.moisture);
+  const bool has_weight = !scene.sources.empty() || scene.moisture;
+  describe_force(v, scene.force, scene.strength, scene.ground, has_weight);
 
   describe_relaxation(v, scene.relaxation);
   describe_device(v, scene.device);
@@ -416,6 +420,7 @@ void check_scene(const Scene& scene, const std::string& name) {
         name);
   check_device(scene, name);
   check_sources(scene, name);
+  check_moisture(scene, name);
   if (scene.stroke && scene.stroke->file.empty())
     throw_input_error(
         "{}: stroke.file is missing; name a stroke (.toml, .h5 or a table of samples) or remove [stroke]",

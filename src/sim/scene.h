@@ -16,6 +16,7 @@
 #include "sand/initial_surface.h"
 #include "sand/relaxation.h"
 #include "sand/resistive_force.h"
+#include "sand/standing_sand.h"
 #include "sim/source_settings.h"
 #include "tool/tool_settings.h"
 
@@ -76,6 +77,7 @@ struct Scene {
   DisplacementSettings displacement;
   ForceSettings force;
   SandStrength strength;  ///< of the sand, for any force.law but the paper's; sources need its density
+  std::optional<MoistureSettings> moisture;  ///< none: the sand is dry
   RelaxationSettings relaxation;
   std::vector<SourceSettings> sources;  ///< of sand, and sinks
   DeviceSettings device;

@@ -33,6 +33,8 @@ void describe_region(KeyVisitor& v, SandRegion& region) {
   show_if_given(v, "density", region.density, positive, "kg/m^3",
                 "its sand's bulk density under the tool, instead of force.density");
   show_if_given(v, "k_s", region.k_s, not_negative, "N", "instead of force.k_s");
+  show_if_given(v, "cohesion", region.cohesion, {0.0, most_cohesion, false}, "Pa",
+                "instead of moisture.cohesion");
 }
 
 void describe_layer(KeyVisitor& v, SandLayer& layer) {

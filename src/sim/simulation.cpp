@@ -135,7 +135,7 @@ void Simulation::pour(std::int64_t tick) {
 }
 
 RelaxationOutcome Simulation::relax(double time) {
-  const RelaxationOutcome outcome = loop_.relax([this](std::int64_t passes, const BedNow& bed_now) {
+  const RelaxationOutcome outcome = loop_.relax(time, [this](std::int64_t passes, const BedNow& bed_now) {
     tell([&](auto& observer) { observer.on_pass(passes, bed_now); });
   });
   result_.relaxations += 1;

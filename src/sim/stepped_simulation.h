@@ -38,7 +38,7 @@ class SteppedSimulation {
   /// finite; unstable.
   const TickRecord& tick(Hand hand, const ToldMotion& told = {});
   /// Relaxes sand to rest; the tool stays where it is. After the last tick, call lift() first.
-  RelaxationOutcome relax(const PassWatcher& watcher = {}) { return loop_.relax(watcher); }
+  RelaxationOutcome relax(const PassWatcher& watcher = {}) { return loop_.relax(time(), watcher); }
   void lift() { loop_.lift(); }
 
   /// All that later ticks depend on, as bytes that this build of the library reads. Error: input, if a plugin

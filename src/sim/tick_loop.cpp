@@ -4,6 +4,7 @@
 #include "rules/schedule.h"
 #include "sand/ground.h"
 #include "sim/plugin_laws.h"
+#include "sim/scene_moisture.h"
 #include "tool/tool_surface.h"
 
 namespace sandstroke {
@@ -16,7 +17,7 @@ TickLoop::TickLoop(const Scene& scene, HeightField bed, bool plays, std::unique_
             plays ? make_plugin_displacer(scene, bed_.cell_size()) : nullptr),
       tool_force_(plays ? make_tool_force(scene, bed_.cell_size()) : std::make_unique<NoToolForce>()),
       device_(scene),
-      relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene, bed_.cell_size())) {
+      relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene, bed_)) {
   if (plays && bed_.ground() && bed_.ground()->has_floor()) floor_.emplace(scene.tool, bed_.cell_size());
   if (!scene.sources.empty()) sources_.emplace(scene.sources, scene.strength.density);
   if (!scene.plugin_laws.relaxation.empty() || !scene.plugin_laws.displacement.empty()) watch_.emplace(bed_);
@@ -83,7 +84,8 @@ void TickLoop::lift() {
   tool_force_->lift();
 }
 
-RelaxationOutcome TickLoop::relax(const PassWatcher& watcher) {
+RelaxationOutcome TickLoop::relax(double time, const PassWatcher& watcher) {
+  relaxer_->set_time(time);
   sand_.make_walls(bed_);
   check_plugin_law("displacement", scene().plugin_laws.displacement);
   const RelaxationOutcome outcome = relaxer_->relax(bed_, watcher);
@@ -118,14 +120,14 @@ void TickLoop::visit_state(StateVisitor& state) {
   at_rest_->visit_state(state);
 }
 
-void TickLoop::make_at_rest() { at_rest_.emplace(bed_, make_relaxer(scene().relaxation, bed_.cell_size())); }
+void TickLoop::make_at_rest() { at_rest_.emplace(bed_, make_relaxer(scene(), bed_)); }
 
 const HeightField& TickLoop::bed_at_rest() {
   const RelaxationSettings& settings = scene().relaxation;
   if (!scene().plugin_laws.relaxation.empty() || (settings.rate == 0.0 && settings.way == 0.0)) return bed_;
   if (!at_rest_) make_at_rest();
   sand_.make_walls(at_rest_->follow(bed_));
-  at_rest_->relax();
+  at_rest_->relax(*relaxer_);
   return at_rest_->copy();
 }
 

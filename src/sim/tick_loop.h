@@ -61,9 +61,9 @@ class TickLoop {
   bool relaxation_comes_due(std::int64_t tick) const;
   /// All that later ticks depend on. Error: input, if a plugin law has a part in them.
   void visit_state(StateVisitor& state);
-  /// Relaxes the sand to rest, around a solid tool or into the hollow that it has left. Error: unstable,
-  /// where a plugin law makes or loses sand.
-  RelaxationOutcome relax(const PassWatcher& watcher);
+  /// Relaxes the sand to rest at this time of the run [s], around a solid tool or into the hollow that it has
+  /// left. Error: unstable, where a plugin law makes or loses sand.
+  RelaxationOutcome relax(double time, const PassWatcher& watcher);
   /// bed() as it would lie if it came to rest now, which it need not until the next relaxation (SandAtRest).
   /// bed() itself where a scene does not relax as its stroke goes on, or by a law of one's own. Always the
   /// same object, from the first call on.

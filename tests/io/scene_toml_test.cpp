@@ -115,6 +115,8 @@ TEST(SceneToml, EveryKeyOfTheTableIsReadWithItsDefaultJustWhereItSaysThatItAppli
         if (row.name.starts_with("sand.region."))
           settings.insert(settings.begin(), "sand.region=[{talus_angle = 30}]");
         if (row.name.starts_with("sand.map.")) settings.insert(settings.begin(), "sand.map.file=x.png");
+        if (row.name.starts_with("moisture.") && row.key() != "cohesion")
+          settings.insert(settings.begin(), "moisture.cohesion=100");
         if (row.name.starts_with("ground.")) settings.push_back("bed.floor=0");
         if (with == "stone.1.shape=mesh" && row.key() != "file") settings.push_back("stone.1.file=x.stl");
         if (row.name.starts_with("source."))

@@ -21,6 +21,7 @@ class AnyScene {
     draw_ground();
     if (chance(0.7)) draw_stroke();
     if (chance(0.5) || (!stroke && chance(0.5))) draw_sources();
+    if (chance(0.3)) draw_moisture();
   }
 
   Scene scene;
@@ -28,7 +29,8 @@ class AnyScene {
 
   std::string words() const {
     return fmt::format(
-        "{} by {}, {}", relaxation_law_names[static_cast<int>(scene.relaxation.law)],
+        "{}{} by {}, {}", scene.moisture ? "moist, " : "",
+        relaxation_law_names[static_cast<int>(scene.relaxation.law)],
         relaxation_method_names[static_cast<int>(scene.relaxation.method)],
         stroke ? scene.device.model == DeviceModel::dynamic ? "dynamic device" : "kinematic device"
                : "no stroke");
@@ -127,6 +129,18 @@ class AnyScene {
       source.start = one_of({0.0, 0.0, 0.05});
       source.stop = source.start + one_of({1e-9, 0.001, 0.1, 0.2});
     }
+  }
+
+  void draw_moisture() {
+    MoistureSettings& moisture = scene.moisture.emplace();
+    moisture.cohesion = one_of({0.0, 1e-6, 1.0, 20.0, 150.0, 600.0, 5000.0});
+    moisture.friction_angle = one_of({0.0, 5.0, 33.0, 60.0});
+    moisture.surface = one_of({SlipSurface::spiral, SlipSurface::plane});
+    moisture.heals = chance(0.7);
+    moisture.dries = scene.only_relaxes() ? 0.0 : one_of({0.0, 0.0, 100.0, 1e9});
+    for (SandRegion& region : scene.ground.regions)
+      if (chance(0.3)) region.cohesion = one_of({0.0, 150.0, 5000.0});
+    if (scene.relaxation.law == RelaxationLaw::paper) scene.relaxation.law = RelaxationLaw::isotropic;
   }
 
   static double top_of(const StoneSettings& stone) {

@@ -15,6 +15,8 @@ const std::vector<ProblemMaker>& problem_makers() {
       {"ridge", ridge_problem},
       {"disc", disc_problem},
       {"cap", cap_problem},
+      {"cut", cut_problem},
+      {"wall", wall_problem},
       {"plunge", plunge_problem},
       {"drag", drag_problem},
       {"blade", blade_problem},

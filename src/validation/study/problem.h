@@ -39,6 +39,7 @@ struct Score {
   double largest_relative = not_applicable;
   double slope_error = not_applicable;       ///< deg, the largest of all directions
   double volume_error = not_applicable;      ///< relative, of the sand that stays
+  double cut_error = not_applicable;         ///< relative, of the height at which a cut fails
   double work_error = not_applicable;        ///< relative
   double force_error = not_applicable;       ///< rms over the largest force
   double position_error = not_applicable;    ///< m, rms
@@ -152,6 +153,8 @@ Problem seam_problem(const ProblemOptions& options);
 Problem ridge_problem(const ProblemOptions& options);
 Problem disc_problem(const ProblemOptions& options);
 Problem cap_problem(const ProblemOptions& options);
+Problem cut_problem(const ProblemOptions& options);
+Problem wall_problem(const ProblemOptions& options);
 // The device's work, against closed forms (contact.cpp).
 Problem plunge_problem(const ProblemOptions& options);
 Problem drag_problem(const ProblemOptions& options);

@@ -57,6 +57,7 @@ const std::vector<Column> columns = {
      NUMBER(run.score.largest_relative)},
     {"slope_error_largest", "Slope error, largest of all directions", "deg", NUMBER(run.score.slope_error)},
     {"volume_error", "Sand that stays, relative error", "", NUMBER(run.score.volume_error)},
+    {"cut_error", "Height of a cut, relative error", "", NUMBER(run.score.cut_error)},
     {"work_error", "Work error, relative", "", NUMBER(run.score.work_error)},
     {"force_error", "Force error, rms of the largest", "", NUMBER(run.score.force_error)},
     {"position_error", "Position error, rms", "m", NUMBER(run.score.position_error)},

@@ -1,0 +1,326 @@
+#include "sand/standing_cuts.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/parallel.h"
+#include "sand/ground.h"
+
+namespace sandstroke {
+namespace {
+
+/// Heights and intact levels of a rectangle of whole tiles, as the rule asks for them.
+class Window {
+ public:
+  Window(const HeightField& bed, const HeightField& level, const Cohesion& cohesion, const CellRange& tiles)
+      : bed_(bed),
+        cohesion_(cohesion),
+        cells_(bed.cells_of_tiles(tiles)),
+        stride_(cells_.cols()),
+        heights_(static_cast<std::size_t>(cells_.rows()) * stride_),
+        levels_(heights_.size()) {
+    for (int i = tiles.row_begin; i < tiles.row_end; ++i)
+      for (int j = tiles.col_begin; j < tiles.col_end; ++j) {
+        const int tile = bed.tile_index(i, j);
+        const std::size_t at = index(i * HeightField::tile_side, j * HeightField::tile_side);
+        bed.read_tile(tile, heights_.data() + at, static_cast<std::ptrdiff_t>(stride_));
+        level.read_tile(tile, levels_.data() + at, static_cast<std::ptrdiff_t>(stride_));
+      }
+  }
+
+  int rows() const { return bed_.rows(); }
+  int cols() const { return bed_.cols(); }
+  double cell_size() const { return bed_.cell_size(); }
+  bool is_rectangle() const { return bed_.shape() == BedShape::rectangle; }
+  bool has_floor() const { return bed_.ground() && bed_.ground()->has_floor(); }
+  bool is_uniform() const { return !cohesion_.by_place; }
+  bool has_sand(int row, int col) const {
+    return row >= cells_.row_begin && row < cells_.row_end && col >= cells_.col_begin &&
+           col < cells_.col_end && (is_rectangle() || bed_.has_sand(row, col));
+  }
+  double height(int row, int col) const { return heights_[index(row, col)]; }
+  double intact(int row, int col) const { return levels_[index(row, col)]; }
+  double floor(int row, int col) const { return bed_.floor(row, col); }
+  double cohesion(int row, int col) const { return cohesion_.at(row, col); }
+
+ private:
+  std::size_t index(int row, int col) const {
+    return static_cast<std::size_t>(row - cells_.row_begin) * stride_ +
+           static_cast<std::size_t>(col - cells_.col_begin);
+  }
+
+  const HeightField& bed_;
+  const Cohesion& cohesion_;
+  CellRange cells_;
+  std::size_t stride_;
+  std::vector<double> heights_, levels_;
+};
+
+/// The tiles within so many of a tile, by tile rows and columns.
+CellRange tiles_around(const HeightField& bed, int tile, int reach) {
+  const int row = tile / bed.tile_cols(), col = tile % bed.tile_cols();
+  return {std::max(0, row - reach), std::min(bed.tile_rows(), row + reach + 1), std::max(0, col - reach),
+          std::min(bed.tile_cols(), col + reach + 1)};
+}
+
+double area(const CellRange& cells) { return static_cast<double>(cells.rows()) * cells.cols(); }
+
+/// One window for all rays from these tiles, if it is no larger than theirs together; none: each has its own.
+std::optional<CellRange> common_window(const HeightField& bed, const std::vector<int>& tiles, int reach) {
+  CellRange all{bed.tile_rows(), 0, bed.tile_cols(), 0};
+  double sum = 0.0;
+  for (const int tile : tiles) {
+    const CellRange one = tiles_around(bed, tile, reach);
+    sum += area(one);
+    all = {std::min(all.row_begin, one.row_begin), std::max(all.row_end, one.row_end),
+           std::min(all.col_begin, one.col_begin), std::max(all.col_end, one.col_end)};
+  }
+  if (area(all) <= sum) return all;
+  return std::nullopt;
+}
+
+/// The greatest of the values, by tile, within so many tiles of each.
+std::vector<double> greatest_near(const HeightField& bed, const std::vector<double>& values, int reach) {
+  std::vector<double> along(values), both(values);
+  for (int tile = 0; tile < bed.tile_count(); ++tile) {
+    const CellRange near = tiles_around(bed, tile, reach);
+    for (int col = near.col_begin; col < near.col_end; ++col)
+      along[tile] = std::max(along[tile], values[bed.tile_index(tile / bed.tile_cols(), col)]);
+  }
+  for (int tile = 0; tile < bed.tile_count(); ++tile) {
+    const CellRange near = tiles_around(bed, tile, reach);
+    both[tile] = along[tile];
+    for (int row = near.row_begin; row < near.row_end; ++row)
+      both[tile] = std::max(both[tile], along[bed.tile_index(row, tile % bed.tile_cols())]);
+  }
+  return both;
+}
+
+}  // namespace
+
+StandingCuts::StandingCuts(const HeightField& bed, const CohesionFactor& factor)
+    : factor_(factor),
+      level_(bed),
+      ranges_(bed.tile_count(), {0.0, 0.0, never}),
+      seen_(bed.tile_count(), never),
+      healed_(bed.tile_count(), 0) {
+  level_.lie_on(nullptr);
+  level_.clear_disturbed();
+}
+
+void StandingCuts::cut(HeightField& bed, const Cohesion& cohesion) {
+  for (const int slot : bed.disturbed_tiles()) cut_tile(bed, slot);
+  if (cohesion.by_place || is_dry(cohesion.least - cohesion.dried)) free_dry_sand(bed, cohesion);
+  level_.clear_disturbed();
+}
+
+void StandingCuts::free_dry_sand(HeightField& bed, const Cohesion& cohesion) {
+  const bool dries = std::exchange(dry_since_, cohesion.dried) != cohesion.dried;
+  if (dries) {
+    dry_tiles_.clear();
+    for (int tile = 0; tile < bed.tile_count(); ++tile) {
+      const CellRange cells = bed.tile_cells(tile);
+      bool has_dry = false;
+      for (int row = cells.row_begin; row < cells.row_end && !has_dry; ++row)
+        for (int col = cells.col_begin; col < cells.col_end && !has_dry; ++col)
+          has_dry = is_dry(cohesion.at(row, col));
+      if (has_dry) dry_tiles_.push_back(tile);
+    }
+  }
+  know_ranges(bed);
+  double low = ranges_[0].low;
+  for (const TileRange& range : ranges_) low = std::min(low, range.low);
+  const double deep = low - bed.cell_size();  // no flow gets there
+  for (const int tile : dry_tiles_) {
+    const CellRange cells = bed.tile_cells(tile);
+    for (int row = cells.row_begin; row < cells.row_end; ++row)
+      for (int col = cells.col_begin; col < cells.col_end; ++col) {
+        const double level = std::max(deep, bed.floor(row, col));
+        if (!(level < level_(row, col)) || !is_dry(cohesion.at(row, col))) continue;
+        level_.set(row, col, level);
+        if (dries)
+          bed.mark_disturbed(bed.allocate(tile), row - cells.row_begin,
+                             std::uint64_t{1} << (col - cells.col_begin));
+      }
+  }
+}
+
+void StandingCuts::take_over(const StandingCuts& other, const HeightField& bed) {
+  level_ = other.level_;
+  for (int slot = 0; slot < bed.allocated_tiles(); ++slot) cut_tile(bed, slot);
+  level_.clear_disturbed();
+  std::fill(seen_.begin(), seen_.end(), never);
+}
+
+void StandingCuts::cut_tile(const HeightField& bed, int slot) {
+  const CellRange cells = bed.tile_cells(bed.tile_of(slot));
+  const double* heights = bed.tile_heights(slot);
+  for (int row = 0; row < cells.rows(); ++row)
+    for (int col = 0; col < cells.cols(); ++col) {
+      const int r = cells.row_begin + row, c = cells.col_begin + col;
+      const double height = heights[row * HeightField::tile_side + col];
+      if (height < level_(r, c)) level_.set(r, c, height);
+    }
+}
+
+void StandingCuts::heal(const HeightField& bed) {
+  for (int slot = 0; slot < bed.allocated_tiles(); ++slot) {
+    const int tile = bed.tile_of(slot);
+    const std::uint64_t revision = bed.tile_revision(tile);
+    if (std::exchange(healed_[tile], revision) != revision) seen_[tile] = never;  // its faces are other ones
+  }
+  level_ = bed;
+  level_.lie_on(nullptr);
+  level_.clear_disturbed();
+}
+
+void StandingCuts::know_ranges(const HeightField& bed) {
+  std::vector<double> heights(HeightField::tile_area);
+  for (int tile = 0; tile < bed.tile_count(); ++tile) {
+    TileRange& range = ranges_[tile];
+    if (range.revision == bed.tile_revision(tile)) continue;
+    range.revision = bed.tile_revision(tile);
+    const CellRange cells = bed.tile_cells(tile);
+    if (bed.slot_of(tile) < 0)
+      if (const std::optional<double> level = bed.untouched().level(bed, cells)) {
+        range.low = range.high = *level;
+        continue;
+      }
+    bed.read_tile(tile, heights.data());
+    range.low = range.high = heights[0];
+    for (int row = 0; row < cells.rows(); ++row)
+      for (int col = 0; col < cells.cols(); ++col) {
+        const double height = heights[row * HeightField::tile_side + col];
+        range.low = std::min(range.low, height);
+        range.high = std::max(range.high, height);
+      }
+  }
+}
+
+std::vector<int> StandingCuts::tiles_to_look_at(const HeightField& bed, double safe_height, bool everywhere,
+                                                std::vector<double>& top_near) {
+  double low = ranges_[0].low, high = ranges_[0].high;
+  std::vector<double> changed(bed.tile_count()), highs(bed.tile_count());
+  bool any = false;
+  for (int tile = 0; tile < bed.tile_count(); ++tile) {
+    low = std::min(low, ranges_[tile].low);
+    high = std::max(high, ranges_[tile].high);
+    highs[tile] = ranges_[tile].high;
+    changed[tile] = everywhere || seen_[tile] != bed.tile_revision(tile) ? 1.0 : 0.0;
+    any = any || changed[tile] > 0.0;
+    seen_[tile] = bed.tile_revision(tile);
+  }
+  if (!any || high - low <= safe_height) return {};
+  // A ray goes on until its chord would be flatter than mu, and a cell further; a face is looked for around.
+  const double cells = (high - low) / (factor_.friction() * bed.cell_size()) + standing::reach + 2.0;
+  reach_ = static_cast<int>(
+      std::min(std::ceil(cells / HeightField::tile_side), 1.0 * std::max(bed.tile_rows(), bed.tile_cols())));
+  top_near = greatest_near(bed, highs, reach_);
+  const std::vector<double> changed_near = greatest_near(bed, changed, reach_);
+  std::vector<int> tiles;
+  for (int tile = 0; tile < bed.tile_count(); ++tile)
+    if (changed_near[tile] > 0.0 && top_near[tile] - ranges_[tile].low > safe_height) tiles.push_back(tile);
+  return tiles;
+}
+
+StandingCuts::Look StandingCuts::look(HeightField& bed, const Cohesion& cohesion) {
+  know_ranges(bed);
+  const double safe = factor_.safe_height() * std::max(0.0, cohesion.least - cohesion.dried);
+  std::vector<double> top_near;
+  const std::vector<int> tiles =
+      tiles_to_look_at(bed, safe, std::exchange(dried_, cohesion.dried) != cohesion.dried, top_near);
+  std::vector<std::vector<Failure>> found(tiles.size());
+  std::vector<std::int64_t> toes(tiles.size(), 0);
+  if (tiles.empty()) return {};
+  std::optional<Window> shared;
+  if (const std::optional<CellRange> all = common_window(bed, tiles, reach_))
+    shared.emplace(bed, level_, cohesion, *all);
+  parallel_for(tiles.size(), [&](std::size_t i) {
+    std::optional<Window> own;
+    if (!shared) own.emplace(bed, level_, cohesion, tiles_around(bed, tiles[i], reach_));
+    const Window& sand = shared ? *shared : *own;
+    const CellRange cells = bed.tile_cells(tiles[i]);
+    const double mu = factor_.friction(), top = top_near[tiles[i]];
+    for (int row = cells.row_begin; row < cells.row_end; ++row)
+      for (int col = cells.col_begin; col < cells.col_end; ++col) {
+        const double toe = sand.height(row, col);
+        if (top - toe <= safe || !is_toe(sand, row, col, mu) || bed.is_wall(row, col)) continue;
+        ++toes[i];
+        const Uphill uphill = uphill_of(sand, row, col, mu);
+        const Wedge wedge = worst_wedge(sand, row, col, uphill, factor_, top);
+        if (wedge.need > 1.0) found[i].push_back({row, col, toe, uphill, wedge});
+      }
+  });
+  Look look;
+  look.tiles = std::ssize(tiles);
+  std::vector<Failure> failures;
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    look.toes += toes[i];
+    failures.insert(failures.end(), found[i].begin(), found[i].end());
+  }
+  look.failed = std::ssize(failures);
+  if (failures.empty()) return look;
+  lower(bed, failures);
+  for (const int slot : level_.disturbed_tiles()) {
+    const int bed_slot = bed.allocate(level_.tile_of(slot));
+    for (int row = 0; row < HeightField::tile_side; ++row)
+      if (const std::uint64_t lowered = level_.disturbed_cells(slot)[row])
+        bed.mark_disturbed(bed_slot, row, lowered);
+  }
+  level_.clear_disturbed();
+  return look;
+}
+
+/// Lowers the level to the chords of the wedges, and opens it.
+void StandingCuts::lower(const HeightField& bed, const std::vector<Failure>& failures) {
+  const HeightField before = level_;
+  for (const Failure& one : failures)
+    visit_wedge(one.row, one.col, one.toe, one.uphill, one.wedge, bed.cell_size(), bed.rows(), bed.cols(),
+                [&](int row, int col, double chord) {
+                  const double level = std::max(chord, bed.floor(row, col));
+                  if (level < level_(row, col)) level_.set(row, col, level);
+                });
+  // The cells near lowered ones lie in tiles with lowered ones, or beside those.
+  std::vector<double> lowered(bed.tile_count(), 0.0);
+  for (const int slot : level_.disturbed_tiles()) lowered[level_.tile_of(slot)] = 1.0;
+  const std::vector<double> near = greatest_near(bed, lowered, 1);
+  constexpr int rim = 2 * standing::opening;
+  std::vector<std::pair<CellRange, HeightGrid>> opened;
+  for (int tile = 0; tile < bed.tile_count(); ++tile) {
+    if (near[tile] == 0.0) continue;
+    const CellRange cells = bed.tile_cells(tile);
+    const CellRange around{std::max(0, cells.row_begin - rim), std::min(bed.rows(), cells.row_end + rim),
+                           std::max(0, cells.col_begin - rim), std::min(bed.cols(), cells.col_end + rim)};
+    HeightGrid then(around.rows(), around.cols()), now(around.rows(), around.cols());
+    for (int row = 0; row < around.rows(); ++row)
+      for (int col = 0; col < around.cols(); ++col) {
+        then(row, col) = before(around.row_begin + row, around.col_begin + col);
+        now(row, col) = level_(around.row_begin + row, around.col_begin + col);
+      }
+    open_level(then, now);
+    opened.emplace_back(cells, now.block(cells.row_begin - around.row_begin,
+                                         cells.col_begin - around.col_begin, cells.rows(), cells.cols()));
+  }
+  for (const auto& [cells, levels] : opened)
+    for (int row = 0; row < cells.rows(); ++row)
+      for (int col = 0; col < cells.cols(); ++col) {
+        const int r = cells.row_begin + row, c = cells.col_begin + col;
+        const double level = std::max(levels(row, col), bed.floor(r, c));
+        if (level < level_(r, c)) level_.set(r, c, level);
+      }
+}
+
+void StandingCuts::visit_state(StateVisitor& state) {
+  level_.visit_state(state);
+  state.row("standing.seen", seen_);
+  state.row("standing.healed", healed_);
+  state.value("standing.dried", dried_);
+  state.value("standing.dry_since", dry_since_);
+  state.list("standing.dry_tiles", dry_tiles_);
+  if (state.restores())
+    for (TileRange& range : ranges_) range.revision = never;
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "core/state_visitor.h"
+#include "rules/standing.h"
+#include "sand/height_field.h"
+
+namespace sandstroke {
+
+/// The cohesion of moist sand over its weight per volume, c / gamma [m], by place.
+struct Cohesion {
+  double least = 0.0;                                     ///< of all places
+  std::shared_ptr<const HeightField> by_place = nullptr;  ///< null: it is the same everywhere
+  double dried = 0.0;                                     ///< m, that all places have lost of it
+
+  double at(int row, int col) const {
+    return std::max(0.0, (by_place ? (*by_place)(row, col) : least) - dried);
+  }
+};
+
+/// The intact level of a bed of moist sand, and which of its cuts fail (rules/standing.h): the same bits as
+/// look_at_cuts, but only where something changed, and where the sand is high enough to fail.
+class StandingCuts {
+ public:
+  /// All sand is intact.
+  StandingCuts(const HeightField& bed, const CohesionFactor& factor);
+
+  /// The level b [m], nowhere above the sand.
+  const HeightField& level() const { return level_; }
+  /// Whether cohesion [m] carries no more than the step of a cell at mu: as good as none.
+  bool is_dry(double cohesion) const {
+    return cohesion * factor_.safe_height() <= factor_.friction() * level_.cell_size();
+  }
+  /// Lowers the level to the sand where that was set (HeightField::disturbed_tiles), and under all sand where
+  /// the cohesion is as good as none. What was intact there until now may flow: it is marked as disturbed.
+  void cut(HeightField& bed, const Cohesion& cohesion);
+  /// The sand as it lies is intact.
+  void heal(const HeightField& bed);
+  /// The level is that of another bed's, but nowhere above this one's sand.
+  void take_over(const StandingCuts& other, const HeightField& bed);
+
+  struct Look {
+    std::int64_t tiles = 0;   ///< whose cells were looked at
+    std::int64_t toes = 0;    ///< cells beside a face that could fail
+    std::int64_t failed = 0;  ///< those whose wedge fails
+  };
+  /// Looks at the toes whose rays may have come to other sand, or other cohesion, since the last look. Lowers
+  /// the level where wedges fail, and marks these cells of the bed as disturbed.
+  Look look(HeightField& bed, const Cohesion& cohesion);
+
+  void visit_state(StateVisitor& state);
+
+ private:
+  /// A toe whose wedge fails.
+  struct Failure {
+    int row, col;
+    double toe;  // m
+    Uphill uphill;
+    Wedge wedge;
+  };
+  struct TileRange {
+    double low, high;        // m
+    std::uint64_t revision;  // of the bed's tile that has this range
+  };
+  void cut_tile(const HeightField& bed, int slot);
+  void free_dry_sand(HeightField& bed, const Cohesion& cohesion);
+  void know_ranges(const HeightField& bed);
+  /// Tiles to look at, by index, in order; top_near [m]: by tile, the highest sand that its rays may come to.
+  std::vector<int> tiles_to_look_at(const HeightField& bed, double safe_height, bool everywhere,
+                                    std::vector<double>& top_near);
+  void lower(const HeightField& bed, const std::vector<Failure>& failures);
+
+  CohesionFactor factor_;
+  HeightField level_;
+  static constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
+  std::vector<TileRange> ranges_;      // by tile
+  std::vector<std::uint64_t> seen_;    // by tile: the bed's revision in the last look; never: look again
+  std::vector<std::uint64_t> healed_;  // by tile: the bed's revision when it healed
+  std::vector<int> dry_tiles_;         // by index, that have dry sand beside moist sand
+  double dry_since_ = -1.0;            // m, dried when they were found; below 0: never
+  double dried_ = 0.0;                 // m, in the last look
+  int reach_ = 0;                      // tiles, that a ray may go
+};
+
+}  // namespace sandstroke

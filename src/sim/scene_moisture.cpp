@@ -1,0 +1,128 @@
+#include "sim/scene_moisture.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "rules/force.h"
+#include "rules/talus.h"
+#include "sand/region_values.h"
+#include "sim/plugin_laws.h"
+
+namespace sandstroke {
+namespace {
+
+double friction_angle(const Scene& scene) {
+  const double own = scene.moisture->friction_angle;
+  return own > 0.0 ? own : scene.relaxation.talus_angle;
+}
+
+double weight_of(const Scene& scene) { return scene.strength.density * gravity; }  // N/m^3
+
+bool has_cohesive_region(const Scene& scene) {
+  return std::any_of(scene.ground.regions.begin(), scene.ground.regions.end(),
+                     [](const SandRegion& region) { return region.cohesion.has_value(); });
+}
+
+/// The cohesion over the weight per volume, by place where regions say so.
+Cohesion cohesion_of(const Scene& scene, const BedGeometry& bed, double weight) {
+  const double own = scene.moisture->cohesion;
+  Cohesion cohesion{own / weight};
+  if (!has_cohesive_region(scene)) return cohesion;
+  const RegionValues values(
+      scene.ground.regions, [](const SandRegion& region) { return region.cohesion; }, bed.cell_size());
+  auto by_place = std::make_shared<HeightField>(bed.rows(), bed.cols(), bed.cell_size(),
+                                                std::make_shared<LevelRule>(own / weight));
+  for (int row = 0; row < bed.rows(); ++row)
+    for (int col = 0; col < bed.cols(); ++col) {
+      const double there = values.at({bed.x_of(col), bed.y_of(row)}, own);
+      if (there == own) continue;
+      by_place->set(row, col, there / weight);
+      cohesion.least = std::min(cohesion.least, there / weight);
+    }
+  cohesion.by_place = std::move(by_place);
+  return cohesion;
+}
+
+}  // namespace
+
+void describe_moisture(KeyVisitor& v, std::optional<MoistureSettings>& moisture) {
+  if (!v.optional_section("moisture", moisture.has_value(),
+                          "moist sand: cuts stand up to a height, and fail as wedges beyond; without it the "
+                          "sand is dry"))
+    return;
+  if (!moisture) moisture.emplace();
+  MoistureSettings& m = *moisture;
+  if (v.reads()) v.require("cohesion");
+  v.number(
+      "cohesion", m.cohesion, {0.0, most_cohesion, false}, "Pa",
+      "what holds moist sand together, from a shear test: 150 for damp, 600 for well mixed sand; 0: dry. "
+      "The force on the tool knows none");
+  v.number("friction_angle", m.friction_angle, {0.0, friction_angles.highest, false}, "deg",
+           "angle of internal friction of intact sand; 0: relaxation.talus_angle");
+  choose(v, "surface", m.surface, {std::begin(slip_surface_names), std::end(slip_surface_names)},
+         "along which it fails: log-spirals, or planes (Culmann), which let slanting cuts stand too high");
+  v.flag("heals", m.heals, "sand that has come to rest is intact again");
+  v.number("dries", m.dries, not_negative, "Pa/s", "cohesion that the sand loses as time passes");
+}
+
+void check_moisture(const Scene& scene, const std::string& name) {
+  if (!scene.moisture) {
+    if (has_cohesive_region(scene))
+      throw_input_error("{}: a [[sand.region]] has a cohesion, but the scene no [moisture]; add that section",
+                        name);
+    return;
+  }
+  if (!scene.plugin_laws.relaxation.empty())
+    throw_input_error(
+        "{}: [moisture] does not know how the plugin law model.relaxation = \"{}\" moves sand; "
+        "remove one of the two",
+        name, scene.plugin_laws.relaxation);
+  if (scene.relaxation.law == RelaxationLaw::paper)
+    throw_input_error(
+        "{}: [moisture] does not go with relaxation.law = \"paper\", which knows no floor in super-steps; "
+        "take "
+        "\"isotropic\" or \"faces\", or model.preset = \"accurate\"",
+        name);
+  if (!friction_angles.contains(friction_angle(scene)))
+    throw_input_error(
+        "{}: moist sand has a friction angle of {:g} deg{}; give moisture.friction_angle from {:g} to {:g}",
+        name, friction_angle(scene), scene.moisture->friction_angle > 0.0 ? "" : " (relaxation.talus_angle)",
+        friction_angles.lowest, friction_angles.highest);
+  if (scene.moisture->dries > 0.0 && scene.only_relaxes())
+    throw_input_error(
+        "{}: moisture.dries needs time, and none passes in a scene without [stroke] and [[source]]; add one, "
+        "or "
+        "set a lower moisture.cohesion",
+        name);
+}
+
+std::string coarse_moisture_warning(const Scene& scene) {
+  if (!scene.moisture || scene.moisture->cohesion == 0.0) return "";
+  const MoistureSettings& moisture = *scene.moisture;
+  constexpr double most_error = 0.05;  // of the height; 0.51 over its cells is the error of a cut
+  const double height = critical_height(moisture.surface, 90.0, friction_angle(scene)) * moisture.cohesion /
+                        weight_of(scene),
+               cells = height / scene.bed.cell_size(), error = 0.51 / cells;
+  if (error <= most_error) return "";
+  return fmt::format(
+      "a vertical cut of this moist sand stands {:.3g} mm high, which are {:.2g} cells: it stands up to "
+      "{:.0f} % "
+      "too high, and with one cell or less the sand lies as if dry; take cells of {:.2g} mm, or more "
+      "moisture.cohesion",
+      1e3 * height, cells, 100.0 * error, 1e3 * height * most_error / 0.51);
+}
+
+std::unique_ptr<Relaxer> make_relaxer(const Scene& scene, const HeightField& bed) {
+  std::unique_ptr<Relaxer> flow = make_relaxer(scene, bed.cell_size());
+  if (!scene.moisture) return flow;
+  const double weight = weight_of(scene);
+  const Cohesion cohesion = cohesion_of(scene, bed, weight);
+  if (cohesion.least == 0.0 && !cohesion.by_place) return flow;
+  const MoistureSettings& moisture = *scene.moisture;
+  return make_standing_relaxer(
+      std::move(flow), bed,
+      {CohesionFactor(moisture.surface, friction_angle(scene)), cohesion, moisture.dries / weight,
+       moisture.heals, talus_slope(scene.relaxation.talus_angle)});
+}
+
+}  // namespace sandstroke
