@@ -30,6 +30,7 @@
 #include "run/run_scene.h"
 #include "run/run_summary.h"
 #include "run/run_warnings.h"
+#include "sim/scene_moisture.h"
 #include "sim/simulation.h"
 #include "tool/tool_surface.h"
 
@@ -94,6 +95,11 @@ void print_summary(const RunResult& r, const Scene& scene, const std::string& ou
     print_row(source.asked > 0.0 ? "sink" : "source", text_of(source));
   print_row("sand moved",
             fmt::format("{:.6g} m^3; volume drift {:.1e} of it", r.moved_volume, r.volume_drift));
+  if (is_moist(scene))
+    print_row("moist sand",
+              r.relaxation.failed_volume > 0.0
+                  ? fmt::format("cuts failed: {:.3g} m^3 came loose", r.relaxation.failed_volume)
+                  : "no cut failed");
   const std::string steps =
       r.relaxation.super_steps > 0 ? fmt::format(" in {} super steps", r.relaxation.super_steps) : "";
   print_row("relaxation",

@@ -6,6 +6,7 @@
 
 #include "io/run_file.h"
 #include "sand/instruction_set.h"
+#include "sim/scene_moisture.h"
 
 namespace sandstroke {
 
@@ -67,6 +68,7 @@ nlohmann::ordered_json run_summary(const RunResult& r, const Scene& scene, const
   for (const Warning& warning : r.warnings)
     json["warnings"].push_back(
         {{"code", warning.kind().word}, {"section", warning.kind().section}, {"text", warning.text}});
+  if (is_moist(scene)) json["failed_volume"] = r.relaxation.failed_volume;
   if (!r.sources.empty()) {
     json["given_volume"] = r.given_volume;
     json["sources"] = sources_json(r.sources);

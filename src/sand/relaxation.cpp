@@ -11,6 +11,7 @@ void RelaxationOutcome::add(const RelaxationOutcome& next) {
   rejected_stages += next.rejected_stages;
   residual = next.residual;
   moved_volume += next.moved_volume;
+  failed_volume += next.failed_volume;
   cells_visited += next.cells_visited;
   tiles_active_max = std::max(tiles_active_max, next.tiles_active_max);
   wake_ups += next.wake_ups;

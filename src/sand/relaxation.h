@@ -53,6 +53,7 @@ struct RelaxationOutcome {
   double residual = 0.0;
   /// m^3 that flowed from cell to cell, except through cells that pass on exactly as much as they take.
   double moved_volume = 0.0;
+  double failed_volume = 0.0;      ///< m^3 of intact moist sand that came loose where cuts failed
   std::int64_t cells_visited = 0;  ///< cells that might have moved, summed over passes and the last check
   int tiles_active_max = 0;
   std::int64_t wake_ups = 0;  ///< how often a tile at rest became active
@@ -68,6 +69,7 @@ struct RelaxationOutcome {
     state.value("rejected_stages", rejected_stages);
     state.value("residual", residual);
     state.value("moved_volume", moved_volume);
+    state.value("failed_volume", failed_volume);
     state.value("cells_visited", cells_visited);
     state.value("tiles_active_max", tiles_active_max);
     state.value("wake_ups", wake_ups);

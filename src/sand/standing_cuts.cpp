@@ -1,6 +1,7 @@
 #include "sand/standing_cuts.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -262,20 +263,27 @@ StandingCuts::Look StandingCuts::look(HeightField& bed, const Cohesion& cohesion
   }
   look.failed = std::ssize(failures);
   if (failures.empty()) return look;
-  lower(bed, failures);
+  const HeightField before = level_;
+  lower(bed, before, failures);
   for (const int slot : level_.disturbed_tiles()) {
-    const int bed_slot = bed.allocate(level_.tile_of(slot));
-    for (int row = 0; row < HeightField::tile_side; ++row)
-      if (const std::uint64_t lowered = level_.disturbed_cells(slot)[row])
-        bed.mark_disturbed(bed_slot, row, lowered);
+    const int tile = level_.tile_of(slot), bed_slot = bed.allocate(tile);
+    const CellRange cells = level_.tile_cells(tile);
+    for (int row = 0; row < cells.rows(); ++row) {
+      const std::uint64_t lowered = level_.disturbed_cells(slot)[row];
+      if (lowered) bed.mark_disturbed(bed_slot, row, lowered);
+      for (std::uint64_t left = lowered; left; left &= left - 1) {
+        const int r = cells.row_begin + row, c = cells.col_begin + std::countr_zero(left);
+        look.volume += (before(r, c) - level_(r, c)) * level_.cell_area();
+      }
+    }
   }
   level_.clear_disturbed();
   return look;
 }
 
 /// Lowers the level to the chords of the wedges, and opens it.
-void StandingCuts::lower(const HeightField& bed, const std::vector<Failure>& failures) {
-  const HeightField before = level_;
+void StandingCuts::lower(const HeightField& bed, const HeightField& before,
+                         const std::vector<Failure>& failures) {
   for (const Failure& one : failures)
     visit_wedge(one.row, one.col, one.toe, one.uphill, one.wedge, bed.cell_size(), bed.rows(), bed.cols(),
                 [&](int row, int col, double chord) {

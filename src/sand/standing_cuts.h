@@ -47,6 +47,7 @@ class StandingCuts {
     std::int64_t tiles = 0;   ///< whose cells were looked at
     std::int64_t toes = 0;    ///< cells beside a face that could fail
     std::int64_t failed = 0;  ///< those whose wedge fails
+    double volume = 0.0;      ///< m^3, by which the level sank
   };
   /// Looks at the toes whose rays may have come to other sand, or other cohesion, since the last look. Lowers
   /// the level where wedges fail, and marks these cells of the bed as disturbed.
@@ -72,7 +73,8 @@ class StandingCuts {
   /// Tiles to look at, by index, in order; top_near [m]: by tile, the highest sand that its rays may come to.
   std::vector<int> tiles_to_look_at(const HeightField& bed, double safe_height, bool everywhere,
                                     std::vector<double>& top_near);
-  void lower(const HeightField& bed, const std::vector<Failure>& failures);
+  /// before: the level as it is.
+  void lower(const HeightField& bed, const HeightField& before, const std::vector<Failure>& failures);
 
   CohesionFactor factor_;
   HeightField level_;

@@ -48,7 +48,10 @@ class StandingRelaxer : public Relaxer {
     cuts_.cut(bed, sand_.cohesion);
     while (true) {
       outcome.add(flow(bed, outcome.passes, after_pass));
-      if (!outcome.converged || interrupted() || cuts_.look(bed, sand_.cohesion).failed == 0) break;
+      if (!outcome.converged || interrupted()) break;
+      const StandingCuts::Look look = cuts_.look(bed, sand_.cohesion);
+      outcome.failed_volume += look.volume;
+      if (look.failed == 0) break;
     }
     const bool is_moist =
         sand_.cohesion.by_place || !cuts_.is_dry(sand_.cohesion.least - sand_.cohesion.dried);

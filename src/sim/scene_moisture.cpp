@@ -96,6 +96,14 @@ void check_moisture(const Scene& scene, const std::string& name) {
         name);
 }
 
+bool is_moist(const Scene& scene) {
+  if (!scene.moisture) return false;
+  const std::vector<SandRegion>& regions = scene.ground.regions;
+  return scene.moisture->cohesion > 0.0 ||
+         std::any_of(regions.begin(), regions.end(),
+                     [](const auto& region) { return region.cohesion.value_or(0.0) > 0.0; });
+}
+
 std::string coarse_moisture_warning(const Scene& scene) {
   if (!scene.moisture || scene.moisture->cohesion == 0.0) return "";
   const MoistureSettings& moisture = *scene.moisture;
@@ -114,10 +122,9 @@ std::string coarse_moisture_warning(const Scene& scene) {
 
 std::unique_ptr<Relaxer> make_relaxer(const Scene& scene, const HeightField& bed) {
   std::unique_ptr<Relaxer> flow = make_relaxer(scene, bed.cell_size());
-  if (!scene.moisture) return flow;
+  if (!is_moist(scene)) return flow;
   const double weight = weight_of(scene);
   const Cohesion cohesion = cohesion_of(scene, bed, weight);
-  if (cohesion.least == 0.0 && !cohesion.by_place) return flow;
   const MoistureSettings& moisture = *scene.moisture;
   return make_standing_relaxer(
       std::move(flow), bed,

@@ -17,6 +17,9 @@ void describe_moisture(KeyVisitor& visitor, std::optional<MoistureSettings>& moi
 /// scene's file.
 void check_moisture(const Scene& scene, const std::string& name);
 
+/// Whether any of its sand has a cohesion.
+bool is_moist(const Scene& scene);
+
 /// "" or what a run's user should know: so few cells resolve the height of a cut that stands that it stands
 /// too high, or not at all.
 std::string coarse_moisture_warning(const Scene& scene);

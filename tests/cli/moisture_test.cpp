@@ -26,18 +26,23 @@ fs::path folder_of_cake() {
 // 7.1 c / gamma of the default sand's density and a talus of 30 degrees: 63 mm.
 TEST(CliMoisture, ACakeStandsOrFailsByItsCohesion) {
   const fs::path folder = folder_of_cake();
+  std::string told;
   const auto highest = [&](const std::string& cohesion) {
     const ProgramResult run =
         run_program({"run", "cake.toml", "-o", "a.h5", "--set", "moisture.cohesion=" + cohesion}, folder);
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_TRUE(run.err.empty()) << run.err;
     const RunFile file(folder / "a.h5");
+    told = run.out;
     return std::pair((file.final() == file.initial()).all(), file.final()(50, 50));
   };
   EXPECT_EQ(highest("150"), std::pair(true, 0.05));
+  EXPECT_NE(told.find("no cut failed"), std::string::npos) << told;
   EXPECT_EQ(highest("100"), std::pair(false, 0.05));  // the rim fails, not its middle
+  EXPECT_NE(told.find("cuts failed: "), std::string::npos) << told;
   // No cohesion: dry.
   highest("0");
+  EXPECT_EQ(told.find("moist sand"), std::string::npos) << told;
   const HeightGrid dry = RunFile(folder / "a.h5").final();
   ASSERT_EQ(run_program({"run", "cake.toml", "-o", "b.h5", "--unset", "moisture"}, folder).exit_code, 0);
   EXPECT_TRUE((RunFile(folder / "b.h5").final() == dry).all());

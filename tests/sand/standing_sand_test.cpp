@@ -16,7 +16,7 @@ namespace sandstroke {
 namespace {
 
 constexpr double friction_angle = 33.0, weight = 1600.0 * 9.81, cohesion = 150.0;  // deg, N/m^3, Pa
-const double talus_slope = std::tan(friction_angle * std::numbers::pi / 180.0);
+const double loose_slope = std::tan(friction_angle * std::numbers::pi / 180.0);
 
 MoistureSettings moist(double pascal = cohesion, SlipSurface surface = SlipSurface::plane) {
   MoistureSettings moisture;
@@ -38,7 +38,7 @@ std::unique_ptr<Relaxer> relaxer_of(const HeightField& bed, const MoistureSettin
                                 {moisture.cohesion / weight},
                                 moisture.dries / weight,
                                 moisture.heals,
-                                talus_slope});
+                                loose_slope});
 }
 /// The height of a vertical cut that just stands [m].
 double height_of_cut(double pascal = cohesion) {
@@ -102,7 +102,7 @@ TEST(StandingSand, AWallFailsAt102PercentAndItsCrestStepsBackByRankinesWedge) {
     EXPECT_NEAR(back, height / steepest, 0.05 * height_of_cut() + bed.cell_size()) << cells;
     // Loose sand in front lies at the talus.
     for (int col = 0; col + 1 < bed.cols() / 2; ++col)
-      EXPECT_LE(bed(row, col + 1) - bed(row, col), talus_slope * bed.cell_size() * 1.002);
+      EXPECT_LE(bed(row, col + 1) - bed(row, col), loose_slope * bed.cell_size() * 1.002);
   }
 }
 
@@ -129,7 +129,7 @@ TEST(StandingSand, DrySandBesideMoistSandLiesAsAllSandDoes) {
     for (int col = 0; col < 128; ++col) by_place->set(row, col, cohesion / weight);
   const std::unique_ptr<Relaxer> relaxer = make_standing_relaxer(
       make_relaxer(law(), cell), bed,
-      {CohesionFactor(SlipSurface::plane, friction_angle), {0.0, by_place}, 0.0, true, talus_slope});
+      {CohesionFactor(SlipSurface::plane, friction_angle), {0.0, by_place}, 0.0, true, loose_slope});
   EXPECT_TRUE(relaxer->relax(bed).converged);
   make_relaxer(law(), cell)->relax(dry);
   for (int col = 0; col < 128; ++col) {
@@ -235,7 +235,7 @@ TEST(StandingSand, LooksHaveTheBitsOfThePlainRule) {
   for (unsigned seed = 1; seed <= 4; ++seed) {
     HeightField bed = rough(seed, 150, 12, 0.12);
     if (seed > 2) {  // bare in places
-      auto ground = std::make_shared<Ground>(bed, talus_slope);
+      auto ground = std::make_shared<Ground>(bed, loose_slope);
       for (int row = 40; row < 90; ++row)
         for (int col = 30; col < 100; ++col) ground->floor.set(row, col, 0.06);
       bed.lie_on(ground);
