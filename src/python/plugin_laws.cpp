@@ -173,11 +173,10 @@ SceneHere with_python_laws(SceneHere here, const py::dict& laws) {
   PluginLawSettings& plugin_laws = here.scene.plugin_laws;
   if (!plugin_laws.plugin.empty())
     throw_input_error("laws: the scene already has laws from model.plugin; remove one of the two");
-  if (!here.scene.ground.empty())
+  if (!here.scene.ground.empty() || here.scene.moisture)
     throw_input_error(
-        "laws: a law of your own knows no bed.floor, stone, sand.map, sand.region or sand.layer; remove them "
-        "from the "
-        "scene, or leave the laws out");
+        "laws: a law of your own knows no bed.floor, stone, sand.map, sand.region, sand.layer or moisture; "
+        "remove them from the scene, or leave the laws out");
   auto made = std::make_shared<PluginLaws>();
   for (const auto& [key, function] : laws) {
     const auto kind = key.cast<std::string>();

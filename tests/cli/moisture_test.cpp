@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "cli/program.h"
 #include "io/run_file.h"
@@ -122,6 +124,33 @@ TEST(CliMoisture, RegionsHaveACohesionOfTheirOwn) {
   const HeightGrid before = file.initial(), after = file.final();
   EXPECT_TRUE((after.topRows(30) == before.topRows(30)).all());  // y < 0: moist
   EXPECT_FALSE((after.bottomRows(40) == before.bottomRows(40)).all());
+}
+
+TEST(CliMoisture, ASweepFindsWhereItFailsAndWeightCountsAsCohesionDoes) {
+  const fs::path folder = folder_of_cake();
+  write_file(folder / "sweep.toml",
+             "[sweep]\nscene = \"cake.toml\"\n[axes]\nmoisture.cohesion = [100, 150]\n"
+             "force.density = [1600, 2400]\n");
+  const ProgramResult sweep = run_program({"sweep", "sweep.toml", "-o", "out"}, folder);
+  ASSERT_EQ(sweep.exit_code, 0) << sweep.err;
+  std::istringstream csv(read_file(folder / "out/sweep.csv"));
+  const auto next_row = [&] {
+    std::string line, word;
+    std::getline(csv, line);
+    std::istringstream words(line);
+    std::vector<std::string> row;
+    while (std::getline(words, word, ',')) row.push_back(word);
+    return row;
+  };
+  const std::vector<std::string> names = next_row();
+  const std::ptrdiff_t column = std::find(names.begin(), names.end(), "failed_volume") - names.begin();
+  ASSERT_LT(column, std::ssize(names));
+  std::vector<double> failed(4);
+  for (double& volume : failed) volume = std::stod(next_row().at(column));
+  EXPECT_GT(failed[0], 0.0);                            // 100 Pa at 1600 kg/m^3
+  EXPECT_GT(failed[1], 0.0);                            // 100 Pa at 2400 kg/m^3
+  EXPECT_EQ(failed[2], 0.0);                            // 150 Pa at 1600 kg/m^3
+  EXPECT_NEAR(failed[3], failed[0], 1e-9 * failed[0]);  // the same cohesion over the weight
 }
 
 }  // namespace
