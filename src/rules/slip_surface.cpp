@@ -126,6 +126,7 @@ CohesionFactor::CohesionFactor(SlipSurface surface, double friction_angle)
     for (const Cut& cut : cuts) most = std::max(most, cut.height * (1.0 - T * cut.cot_face));
     table_[i] = most * (T - mu) / (2.0 * (1.0 + T * T));
   }
+  least_ = (1.0 - 1e-12) * *std::min_element(table_.begin(), table_.end());
   // The least mean thickness of a wedge that fails; chords that are steeper need more.
   constexpr int between = 16;
   safe_height_ = std::numeric_limits<double>::infinity();
@@ -134,6 +135,27 @@ CohesionFactor::CohesionFactor(SlipSurface surface, double friction_angle)
     safe_height_ = std::min(safe_height_, (*this)(T, 1.0) * (1.0 + T * T) / (T - mu));
   }
   safe_height_ *= 0.999;  // for what lies between these
+}
+
+// With L the lead of the chord's end over mu, such a wedge has A <= r (above - L / 2), and fails only if
+//   (above - L / 2) L > k (r^2 + (mu r + L)^2) / r,  L <= top - mu r,  k = kappa c / gamma.
+// The difference is greatest at one L, and falls with r from r = above cos(phi) on.
+double CohesionFactor::longest_run(double above, double top, double cohesion) const {
+  const double k = least_ * cohesion, square = 1.0 + friction_ * friction_;
+  const auto may_fail = [&](double r) {
+    const double lead = std::min((above - 2.0 * k * friction_) / (1.0 + 2.0 * k / r), top - friction_ * r);
+    return lead > 0.0 &&
+           (above - 0.5 * lead) * lead > k * (r * square + 2.0 * friction_ * lead + lead * lead / r);
+  };
+  double low = above / std::sqrt(square), high = std::max(low, top / friction_);
+  for (int i = 0; i < 8 && may_fail(low); ++i) {
+    const double middle = 0.5 * (low + high);
+    if (!may_fail(middle))
+      high = middle;
+    else
+      low = middle;
+  }
+  return may_fail(low) ? high : low;
 }
 
 }  // namespace sandstroke

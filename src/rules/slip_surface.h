@@ -36,10 +36,15 @@ class CohesionFactor {
   /// The height of sand below which no wedge fails, whatever its shape, in c / gamma: the least mean
   /// thickness of one, about half of a vertical cut's height.
   double safe_height() const { return safe_height_; }
+  /// Below what comes of any chord, but for rounding.
+  double least() const { return least_; }
+  /// The run [m] beyond which no wedge fails whose sand is nowhere more than `above` [m] over a slope of mu
+  /// from the toe, and nowhere more than `top` [m] over the toe. cohesion: over the weight per volume [m].
+  double longest_run(double above, double top, double cohesion) const;
 
  private:
   static constexpr int values = 33;
-  double friction_, per_step_, safe_height_;
+  double friction_, per_step_, safe_height_, least_ = 1.0;
   std::array<double, values> table_;
 };
 

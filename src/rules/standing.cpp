@@ -6,14 +6,14 @@ namespace {
 /// The fields of a bed as the rule asks for them.
 struct GridSand {
   const HeightGrid &heights, &levels, &floors, &cohesions;
-  double size;
+  double size, top_floor;
   bool uniform;
 
   int rows() const { return static_cast<int>(heights.rows()); }
   int cols() const { return static_cast<int>(heights.cols()); }
   double cell_size() const { return size; }
   bool is_rectangle() const { return true; }
-  bool has_floor() const { return true; }
+  double highest_floor() const { return top_floor; }
   bool is_uniform() const { return uniform; }
   bool has_sand(int row, int col) const { return row >= 0 && row < rows() && col >= 0 && col < cols(); }
   double height(int row, int col) const { return heights(row, col); }
@@ -59,8 +59,13 @@ CutsLook look_at_cuts(const HeightGrid& heights, const HeightGrid& intact, const
                       double cell_size) {
   CutsLook look;
   look.intact = intact;
-  const GridSand sand{heights,  intact,    floor,
-                      cohesion, cell_size, cohesion.minCoeff() == cohesion.maxCoeff()};
+  const GridSand sand{heights,
+                      intact,
+                      floor,
+                      cohesion,
+                      cell_size,
+                      floor.maxCoeff(),
+                      cohesion.minCoeff() == cohesion.maxCoeff()};
   const double top = heights.maxCoeff(), safe = factor.safe_height() * cohesion.minCoeff();
   for (int row = 0; row < sand.rows(); ++row)
     for (int col = 0; col < sand.cols(); ++col) {
@@ -68,7 +73,7 @@ CutsLook look_at_cuts(const HeightGrid& heights, const HeightGrid& intact, const
       if (walls(row, col) || top - toe <= safe || !is_toe(sand, row, col, factor.friction())) continue;
       ++look.toes;
       const Uphill uphill = uphill_of(sand, row, col, factor.friction());
-      const Wedge wedge = worst_wedge(sand, row, col, uphill, factor, top);
+      const Wedge wedge = worst_wedge(sand, row, col, uphill, factor, (top - toe) / factor.friction());
       look.need = std::max(look.need, wedge.need);
       if (!(wedge.need > 1.0)) continue;
       ++look.failed;

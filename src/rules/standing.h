@@ -51,8 +51,8 @@ inline bool in_disc(int rows, int cols, int radius) {
 }  // namespace standing
 
 // `Sand` tells a bed's cells: rows(), cols(), cell_size() [m]; has_sand(row, col), false outside the bed;
-// height, intact and floor(row, col) [m], floor <= intact <= height, floor -infinity where there is none, as
-// has_floor() says of all cells; cohesion(row, col) over the weight per volume [m], the same everywhere if
+// height, intact and floor(row, col) [m], floor <= intact <= height, floor -infinity where there is none;
+// highest_floor() of all cells; cohesion(row, col) over the weight per volume [m], the same everywhere if
 // is_uniform(); is_rectangle(): the bed is. All sums go over opposite pairs, so that mirrored and
 // turned beds have mirrored and turned bits.
 
@@ -125,7 +125,7 @@ class Ray {
     };
     out.height = mean([&](int r, int c) { return sand_.height(r, c); });
     out.intact = mean([&](int r, int c) { return sand_.intact(r, c); });
-    if (sand_.has_floor())
+    if (sand_.highest_floor() > toe_)
       out.floor = mean([&](int r, int c) { return std::max(0.0, sand_.floor(r, c) - toe_); });
     out.cohesion = sand_.is_uniform() ? sand_.cohesion(r0, c0)
                                       : mean([&](int r, int c) { return sand_.cohesion(r, c); });
@@ -153,10 +153,11 @@ class Ray {
 /// The chords along one ray, as it goes on.
 class Chords {
  public:
-  /// cell_size, toe [m]: the toe's height.
-  Chords(const CohesionFactor& factor, double cell_size, double toe)
+  /// cell_size, toe [m]: the toe's height. least_need: wedges that need less do not matter.
+  Chords(const CohesionFactor& factor, double cell_size, double toe, double least_need)
       : factor_(factor), mu_(factor.friction()), cell_size_(cell_size), toe_(toe) {
     before_.height = before_.intact = toe;
+    worst_.need = least_need;
   }
   void begin_at(double offset) { worst_.offset = offset; }
 
@@ -185,6 +186,7 @@ class Chords {
     if (!(run > 0.0 && lead > 0.0)) return;
     // Both sides of the rule times run (1 + T^2).
     double load = (area - 0.5 * run * rise) * lead, hold = cohesion_ * square;
+    if (over_floor_.empty() && !(load > worst_.need * (hold * factor_.least()))) return;
     // A spiral sags below its chord. Where the floor rises under the wedge it has no room, and planes count.
     if (over_floor_.empty() || over_floor_.front().along > run)
       hold *= factor_(rise, run);
@@ -222,13 +224,13 @@ class Chords {
   Wedge worst_;
 };
 
-/// The worst wedge of a toe. top [m]: no cell that the ray may come to is higher.
+/// The worst wedge of a toe, of those that are no longer than this [m] and need more than least_need.
 template <class Sand>
 Wedge worst_wedge(const Sand& sand, int row, int col, const Uphill& uphill, const CohesionFactor& factor,
-                  double top) {
+                  double longest, double least_need = 0.0) {
   const double toe = sand.height(row, col), cell_size = sand.cell_size(), mu = factor.friction();
   const Ray<Sand> ray(sand, row, col, uphill);
-  Chords chords(factor, cell_size, toe);
+  Chords chords(factor, cell_size, toe, least_need);
   RaySample here{}, next{};
   if (!ray.sample(1, here) || !(here.intact - toe > mu * cell_size)) return {};
   // A cliff with a flat top has its face half a cell from the toe's centre; a slope that goes on begins
@@ -237,7 +239,7 @@ Wedge worst_wedge(const Sand& sand, int row, int col, const Uphill& uphill, cons
   if (ray.sample(2, next))
     offset = 0.5 * cell_size * std::clamp(1.0 - (next.intact - here.intact) / (here.intact - toe), 0.0, 1.0);
   chords.begin_at(offset);
-  for (int cells = 1; (cells * cell_size - offset) * mu <= top - toe; ++cells) {
+  for (int cells = 1; cells * cell_size - offset <= longest; ++cells) {
     if (!ray.sample(cells, here)) break;
     chords.add(cells, here);
   }

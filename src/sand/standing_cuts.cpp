@@ -18,31 +18,34 @@ class Window {
   Window(const HeightField& bed, const HeightField& level, const Cohesion& cohesion, const CellRange& tiles)
       : bed_(bed),
         cohesion_(cohesion),
+        highest_floor_(bed.ground() ? bed.ground()->floor.highest()
+                                    : -std::numeric_limits<double>::infinity()),
         cells_(bed.cells_of_tiles(tiles)),
         stride_(cells_.cols()),
-        heights_(static_cast<std::size_t>(cells_.rows()) * stride_),
-        levels_(heights_.size()) {
+        columns_(static_cast<std::size_t>(cells_.rows()) * stride_) {
+    std::vector<double> heights(columns_.size()), levels(columns_.size());
     for (int i = tiles.row_begin; i < tiles.row_end; ++i)
       for (int j = tiles.col_begin; j < tiles.col_end; ++j) {
         const int tile = bed.tile_index(i, j);
         const std::size_t at = index(i * HeightField::tile_side, j * HeightField::tile_side);
-        bed.read_tile(tile, heights_.data() + at, static_cast<std::ptrdiff_t>(stride_));
-        level.read_tile(tile, levels_.data() + at, static_cast<std::ptrdiff_t>(stride_));
+        bed.read_tile(tile, heights.data() + at, static_cast<std::ptrdiff_t>(stride_));
+        level.read_tile(tile, levels.data() + at, static_cast<std::ptrdiff_t>(stride_));
       }
+    for (std::size_t i = 0; i < columns_.size(); ++i) columns_[i] = {heights[i], levels[i]};
   }
 
   int rows() const { return bed_.rows(); }
   int cols() const { return bed_.cols(); }
   double cell_size() const { return bed_.cell_size(); }
   bool is_rectangle() const { return bed_.shape() == BedShape::rectangle; }
-  bool has_floor() const { return bed_.ground() && bed_.ground()->has_floor(); }
+  double highest_floor() const { return highest_floor_; }
   bool is_uniform() const { return !cohesion_.by_place; }
   bool has_sand(int row, int col) const {
     return row >= cells_.row_begin && row < cells_.row_end && col >= cells_.col_begin &&
            col < cells_.col_end && (is_rectangle() || bed_.has_sand(row, col));
   }
-  double height(int row, int col) const { return heights_[index(row, col)]; }
-  double intact(int row, int col) const { return levels_[index(row, col)]; }
+  double height(int row, int col) const { return columns_[index(row, col)].height; }
+  double intact(int row, int col) const { return columns_[index(row, col)].intact; }
   double floor(int row, int col) const { return bed_.floor(row, col); }
   double cohesion(int row, int col) const { return cohesion_.at(row, col); }
 
@@ -54,9 +57,13 @@ class Window {
 
   const HeightField& bed_;
   const Cohesion& cohesion_;
+  double highest_floor_;
   CellRange cells_;
   std::size_t stride_;
-  std::vector<double> heights_, levels_;
+  struct Column {
+    double height, intact;  // m
+  };
+  std::vector<Column> columns_;
 };
 
 /// The tiles within so many of a tile, by tile rows and columns.
@@ -68,18 +75,10 @@ CellRange tiles_around(const HeightField& bed, int tile, int reach) {
 
 double area(const CellRange& cells) { return static_cast<double>(cells.rows()) * cells.cols(); }
 
-/// One window for all rays from these tiles, if it is no larger than theirs together; none: each has its own.
-std::optional<CellRange> common_window(const HeightField& bed, const std::vector<int>& tiles, int reach) {
-  CellRange all{bed.tile_rows(), 0, bed.tile_cols(), 0};
-  double sum = 0.0;
-  for (const int tile : tiles) {
-    const CellRange one = tiles_around(bed, tile, reach);
-    sum += area(one);
-    all = {std::min(all.row_begin, one.row_begin), std::max(all.row_end, one.row_end),
-           std::min(all.col_begin, one.col_begin), std::max(all.col_end, one.col_end)};
-  }
-  if (area(all) <= sum) return all;
-  return std::nullopt;
+/// The least rectangle of tiles that holds these, by tile rows and columns.
+CellRange joined(const CellRange& a, const CellRange& b) {
+  return {std::min(a.row_begin, b.row_begin), std::max(a.row_end, b.row_end),
+          std::min(a.col_begin, b.col_begin), std::max(a.col_end, b.col_end)};
 }
 
 /// The greatest of the values, by tile, within so many tiles of each.
@@ -104,7 +103,7 @@ std::vector<double> greatest_near(const HeightField& bed, const std::vector<doub
 StandingCuts::StandingCuts(const HeightField& bed, const CohesionFactor& factor)
     : factor_(factor),
       level_(bed),
-      ranges_(bed.tile_count(), {0.0, 0.0, never}),
+      ranges_(bed.tile_count()),
       seen_(bed.tile_count(), never),
       healed_(bed.tile_count(), 0) {
   level_.lie_on(nullptr);
@@ -112,7 +111,7 @@ StandingCuts::StandingCuts(const HeightField& bed, const CohesionFactor& factor)
 }
 
 void StandingCuts::cut(HeightField& bed, const Cohesion& cohesion) {
-  for (const int slot : bed.disturbed_tiles()) cut_tile(bed, slot);
+  for (const int slot : bed.disturbed_tiles()) cut_tile(bed, slot, bed.disturbed_cells(slot));
   if (cohesion.by_place || is_dry(cohesion.least - cohesion.dried)) free_dry_sand(bed, cohesion);
   level_.clear_disturbed();
 }
@@ -131,8 +130,8 @@ void StandingCuts::free_dry_sand(HeightField& bed, const Cohesion& cohesion) {
     }
   }
   know_ranges(bed);
-  double low = ranges_[0].low;
-  for (const TileRange& range : ranges_) low = std::min(low, range.low);
+  double low = ranges_[0].whole.low;
+  for (const BlockRanges& range : ranges_) low = std::min(low, range.whole.low);
   const double deep = low - bed.cell_size();  // no flow gets there
   for (const int tile : dry_tiles_) {
     const CellRange cells = bed.tile_cells(tile);
@@ -150,17 +149,19 @@ void StandingCuts::free_dry_sand(HeightField& bed, const Cohesion& cohesion) {
 
 void StandingCuts::take_over(const StandingCuts& other, const HeightField& bed) {
   level_ = other.level_;
-  for (int slot = 0; slot < bed.allocated_tiles(); ++slot) cut_tile(bed, slot);
+  CellFlags all;
+  all.fill(~std::uint64_t{0});
+  for (int slot = 0; slot < bed.allocated_tiles(); ++slot) cut_tile(bed, slot, all);
   level_.clear_disturbed();
   std::fill(seen_.begin(), seen_.end(), never);
 }
 
-void StandingCuts::cut_tile(const HeightField& bed, int slot) {
+void StandingCuts::cut_tile(const HeightField& bed, int slot, const CellFlags& flags) {
   const CellRange cells = bed.tile_cells(bed.tile_of(slot));
   const double* heights = bed.tile_heights(slot);
   for (int row = 0; row < cells.rows(); ++row)
-    for (int col = 0; col < cells.cols(); ++col) {
-      const int r = cells.row_begin + row, c = cells.col_begin + col;
+    for (std::uint64_t left = flags[row] & columns_between(0, cells.cols()); left; left &= left - 1) {
+      const int col = std::countr_zero(left), r = cells.row_begin + row, c = cells.col_begin + col;
       const double height = heights[row * HeightField::tile_side + col];
       if (height < level_(r, c)) level_.set(r, c, height);
     }
@@ -178,37 +179,18 @@ void StandingCuts::heal(const HeightField& bed) {
 }
 
 void StandingCuts::know_ranges(const HeightField& bed) {
-  std::vector<double> heights(HeightField::tile_area);
-  for (int tile = 0; tile < bed.tile_count(); ++tile) {
-    TileRange& range = ranges_[tile];
-    if (range.revision == bed.tile_revision(tile)) continue;
-    range.revision = bed.tile_revision(tile);
-    const CellRange cells = bed.tile_cells(tile);
-    if (bed.slot_of(tile) < 0)
-      if (const std::optional<double> level = bed.untouched().level(bed, cells)) {
-        range.low = range.high = *level;
-        continue;
-      }
-    bed.read_tile(tile, heights.data());
-    range.low = range.high = heights[0];
-    for (int row = 0; row < cells.rows(); ++row)
-      for (int col = 0; col < cells.cols(); ++col) {
-        const double height = heights[row * HeightField::tile_side + col];
-        range.low = std::min(range.low, height);
-        range.high = std::max(range.high, height);
-      }
-  }
+  for (int tile = 0; tile < bed.tile_count(); ++tile) ranges_[tile].know(bed, tile);
 }
 
-std::vector<int> StandingCuts::tiles_to_look_at(const HeightField& bed, double safe_height, bool everywhere,
-                                                std::vector<double>& top_near) {
-  double low = ranges_[0].low, high = ranges_[0].high;
+std::vector<StandingCuts::TileToLookAt> StandingCuts::tiles_to_look_at(const HeightField& bed,
+                                                                       double safe_height, bool everywhere) {
+  double low = ranges_[0].whole.low, high = ranges_[0].whole.high;
   std::vector<double> changed(bed.tile_count()), highs(bed.tile_count());
   bool any = false;
   for (int tile = 0; tile < bed.tile_count(); ++tile) {
-    low = std::min(low, ranges_[tile].low);
-    high = std::max(high, ranges_[tile].high);
-    highs[tile] = ranges_[tile].high;
+    low = std::min(low, ranges_[tile].whole.low);
+    high = std::max(high, ranges_[tile].whole.high);
+    highs[tile] = ranges_[tile].whole.high;
     changed[tile] = everywhere || seen_[tile] != bed.tile_revision(tile) ? 1.0 : 0.0;
     any = any || changed[tile] > 0.0;
     seen_[tile] = bed.tile_revision(tile);
@@ -218,41 +200,68 @@ std::vector<int> StandingCuts::tiles_to_look_at(const HeightField& bed, double s
   const double cells = (high - low) / (factor_.friction() * bed.cell_size()) + standing::reach + 2.0;
   reach_ = static_cast<int>(
       std::min(std::ceil(cells / HeightField::tile_side), 1.0 * std::max(bed.tile_rows(), bed.tile_cols())));
-  top_near = greatest_near(bed, highs, reach_);
-  const std::vector<double> changed_near = greatest_near(bed, changed, reach_);
-  std::vector<int> tiles;
-  for (int tile = 0; tile < bed.tile_count(); ++tile)
-    if (changed_near[tile] > 0.0 && top_near[tile] - ranges_[tile].low > safe_height) tiles.push_back(tile);
+  const std::vector<double> top_near = greatest_near(bed, highs, reach_),
+                            changed_near = greatest_near(bed, changed, reach_);
+  std::vector<TileToLookAt> tiles;
+  CellRange around{bed.tile_rows(), 0, bed.tile_cols(), 0};
+  for (int tile = 0; tile < bed.tile_count(); ++tile) {
+    if (changed_near[tile] == 0.0 || top_near[tile] - ranges_[tile].whole.low <= safe_height) continue;
+    tiles.push_back({tile, 0, top_near[tile]});
+    around = joined(around, tiles_around(bed, tile, reach_));
+  }
+  if (tiles.empty()) return {};
+  funnels_.emplace(bed, ranges_, around, factor_.friction());
+  for (TileToLookAt& one : tiles)
+    one.blocks = funnels_->blocks_below(bed, one.tile, ranges_[one.tile], safe_height - spare());
+  std::erase_if(tiles, [](const TileToLookAt& one) { return one.blocks == 0; });
   return tiles;
 }
 
 StandingCuts::Look StandingCuts::look(HeightField& bed, const Cohesion& cohesion) {
   know_ranges(bed);
-  const double safe = factor_.safe_height() * std::max(0.0, cohesion.least - cohesion.dried);
-  std::vector<double> top_near;
-  const std::vector<int> tiles =
-      tiles_to_look_at(bed, safe, std::exchange(dried_, cohesion.dried) != cohesion.dried, top_near);
+  const double least = std::max(0.0, cohesion.least - cohesion.dried), safe = factor_.safe_height() * least,
+               mu = factor_.friction();
+  const std::vector<TileToLookAt> tiles =
+      tiles_to_look_at(bed, safe, std::exchange(dried_, cohesion.dried) != cohesion.dried);
+  if (tiles.empty()) return {};
   std::vector<std::vector<Failure>> found(tiles.size());
   std::vector<std::int64_t> toes(tiles.size(), 0);
-  if (tiles.empty()) return {};
+  // One window for all rays, if it is no larger than theirs together.
+  CellRange all = tiles_around(bed, tiles[0].tile, reach_);
+  double sum = 0.0;
+  for (const TileToLookAt& one : tiles) {
+    const CellRange around = tiles_around(bed, one.tile, reach_);
+    all = joined(all, around);
+    sum += area(around);
+  }
   std::optional<Window> shared;
-  if (const std::optional<CellRange> all = common_window(bed, tiles, reach_))
-    shared.emplace(bed, level_, cohesion, *all);
+  if (area(all) <= sum) shared.emplace(bed, level_, cohesion, all);
   parallel_for(tiles.size(), [&](std::size_t i) {
+    const int tile = tiles[i].tile;
+    const double top = tiles[i].top;
     std::optional<Window> own;
-    if (!shared) own.emplace(bed, level_, cohesion, tiles_around(bed, tiles[i], reach_));
+    if (!shared) own.emplace(bed, level_, cohesion, tiles_around(bed, tile, reach_));
     const Window& sand = shared ? *shared : *own;
-    const CellRange cells = bed.tile_cells(tiles[i]);
-    const double mu = factor_.friction(), top = top_near[tiles[i]];
-    for (int row = cells.row_begin; row < cells.row_end; ++row)
-      for (int col = cells.col_begin; col < cells.col_end; ++col) {
-        const double toe = sand.height(row, col);
-        if (top - toe <= safe || !is_toe(sand, row, col, mu) || bed.is_wall(row, col)) continue;
-        ++toes[i];
-        const Uphill uphill = uphill_of(sand, row, col, mu);
-        const Wedge wedge = worst_wedge(sand, row, col, uphill, factor_, top);
-        if (wedge.need > 1.0) found[i].push_back({row, col, toe, uphill, wedge});
-      }
+    const auto look_at_cell = [&](int row, int col, double funnel) {
+      const double toe = sand.height(row, col), above = std::min(top - toe, funnel - toe + spare());
+      if (above <= safe || !is_toe(sand, row, col, mu) || bed.is_wall(row, col)) return;
+      ++toes[i];
+      const Uphill uphill = uphill_of(sand, row, col, mu);
+      const double longest =
+          sand.highest_floor() > toe ? (top - toe) / mu : factor_.longest_run(above, top - toe, least);
+      const Wedge wedge = worst_wedge(sand, row, col, uphill, factor_, longest, 1.0);
+      if (wedge.need > 1.0) found[i].push_back({row, col, toe, uphill, wedge});
+    };
+    const CellRange cells = bed.tile_cells(tile);
+    for (std::uint64_t left = tiles[i].blocks; left; left &= left - 1) {
+      constexpr int block = BlockRanges::block, side = BlockRanges::side;
+      const int at = std::countr_zero(left), row_begin = cells.row_begin + at / side * block,
+                col_begin = cells.col_begin + at % side * block;
+      const double funnel = funnels_->level(row_begin / block, col_begin / block);
+      for (int row = row_begin; row < std::min(row_begin + block, cells.row_end); ++row)
+        for (int col = col_begin; col < std::min(col_begin + block, cells.col_end); ++col)
+          look_at_cell(row, col, funnel);
+    }
   });
   Look look;
   look.tiles = std::ssize(tiles);
@@ -328,7 +337,7 @@ void StandingCuts::visit_state(StateVisitor& state) {
   state.value("standing.dry_since", dry_since_);
   state.list("standing.dry_tiles", dry_tiles_);
   if (state.restores())
-    for (TileRange& range : ranges_) range.revision = never;
+    for (BlockRanges& range : ranges_) range.revision = never;
 }
 
 }  // namespace sandstroke

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/state_visitor.h"
 #include "rules/standing.h"
+#include "sand/block_ranges.h"
+#include "sand/cell_flags.h"
 #include "sand/height_field.h"
 
 namespace sandstroke {
@@ -63,29 +65,33 @@ class StandingCuts {
     Uphill uphill;
     Wedge wedge;
   };
-  struct TileRange {
-    double low, high;        // m
-    std::uint64_t revision;  // of the bed's tile that has this range
-  };
-  void cut_tile(const HeightField& bed, int slot);
+  void cut_tile(const HeightField& bed, int slot, const CellFlags& cells);
   void free_dry_sand(HeightField& bed, const Cohesion& cohesion);
   void know_ranges(const HeightField& bed);
-  /// Tiles to look at, by index, in order; top_near [m]: by tile, the highest sand that its rays may come to.
-  std::vector<int> tiles_to_look_at(const HeightField& bed, double safe_height, bool everywhere,
-                                    std::vector<double>& top_near);
+  /// Funnels are those of the cells. Between them sand may reach in, and chords begin at a face's foot, up to
+  /// half a cell further.
+  double spare() const { return 2.5 * factor_.friction() * level_.cell_size(); }
+  /// A tile to look at, by index, and its blocks of which wedges may fail (Funnels::blocks_below).
+  struct TileToLookAt {
+    int tile;
+    std::uint64_t blocks;
+    double top;  // m: no sand that its rays may come to is higher
+  };
+  std::vector<TileToLookAt> tiles_to_look_at(const HeightField& bed, double safe_height, bool everywhere);
   /// before: the level as it is.
   void lower(const HeightField& bed, const HeightField& before, const std::vector<Failure>& failures);
 
   CohesionFactor factor_;
   HeightField level_;
-  static constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
-  std::vector<TileRange> ranges_;      // by tile
+  static constexpr std::uint64_t never = BlockRanges::never;
+  std::vector<BlockRanges> ranges_;    // by tile
   std::vector<std::uint64_t> seen_;    // by tile: the bed's revision in the last look; never: look again
   std::vector<std::uint64_t> healed_;  // by tile: the bed's revision when it healed
   std::vector<int> dry_tiles_;         // by index, that have dry sand beside moist sand
   double dry_since_ = -1.0;            // m, dried when they were found; below 0: never
   double dried_ = 0.0;                 // m, in the last look
   int reach_ = 0;                      // tiles, that a ray may go
+  std::optional<Funnels> funnels_;     // of the last look
 };
 
 }  // namespace sandstroke
