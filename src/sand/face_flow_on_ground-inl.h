@@ -15,16 +15,17 @@ namespace sandstroke {
 namespace HWY_NAMESPACE {
 
 /// The slope at the face to the right of a cell, or below it, on a ground.
+template <bool even>
 struct FaceOnGround {
   V drop;      ///< to the neighbour; NaN at a wall
   V square;    ///< the square of dx |g|, as if T were the law's; 0 where the giver has no sand
   Mask falls;  ///< the cell gives, not its neighbour
 
   /// row: of the cell, within the rim. down: 1 for the face below it.
-  HWY_INLINE FaceOnGround(const LawOnGround& ground, const TilePatch& patch, int row, int c, int down) {
+  HWY_INLINE FaceOnGround(const LawOnGround<even>& ground, const TilePatch& patch, int row, int c, int down) {
     constexpr int stride = TilePatch::stride;
     const double* cell = patch.heights(row) + c;
-    const int along = down ? stride : 1, across = down ? 1 : stride;
+    const int along = down ? stride : 1;
     const int next_row = row + down, next_col = c + 1 - down;
     const V m = hn::LoadU(d, cell), next = hn::LoadU(d, cell + along), zero = hn::Zero(d);
     drop = m - next;
@@ -38,33 +39,44 @@ struct FaceOnGround {
     const int ahead = down && row == TilePatch::side ? along : 2 * along;
     const V behind =
         Max(zero, hn::IfThenElse(falls, m - hn::LoadU(d, cell - back), next - hn::LoadU(d, cell + ahead)));
-    const V w = ground.weight(hn::LoadU(d, ground.axis_drops(row) + c),
-                              hn::LoadU(d, ground.axis_drops(next_row) + next_col));
-    const V slope = with_crest(hn::Abs(drop), behind) * w;
-    const auto slope_across = [&](V here, V its_z, int r, int col) {
-      const double* at = patch.heights(r) + col;
-      const int r_step = across == 1 ? 0 : 1, col_step = across == 1 ? 1 : 0;
-      const V two = all(2.0), own_T = hn::LoadU(d, ground.axis_drops(r) + col);
-      const auto counted = [&](V there, int step) {
-        const int there_row = r + step * r_step, there_col = col + step * col_step;
-        const V z_there = ground.sand(there_row, there_col, there);
-        const V height =
-            hn::IfThenElse(there > here, Min(there, here + two * z_there), Max(there, here - two * its_z));
-        const V weight = ground.weight(own_T, hn::LoadU(d, ground.axis_drops(there_row) + there_col));
-        return hn::IfThenElse(weight == all(1.0), height, here + (height - here) * weight);
-      };
-      const V before = hn::LoadU(d, at - across), after = hn::LoadU(d, at + across);
-      return central_difference(here, counted(before, -1), before == before, counted(after, 1),
-                                after == after);
-    };
-    const V sideways =
-        all(0.5) * (slope_across(m, z, row, c) + slope_across(next, next_z, next_row, next_col));
+    V slope = with_crest(hn::Abs(drop), behind);
+    if constexpr (!even)
+      slope *= ground.weight(hn::LoadU(d, ground.axis_drops(row) + c),
+                             hn::LoadU(d, ground.axis_drops(next_row) + next_col));
+    const V sideways = all(0.5) * (slope_across(ground, patch, m, z, row, c, down) +
+                                   slope_across(ground, patch, next, next_z, next_row, next_col, down));
     square = where(has_sand, slope * slope + sideways * sideways);
+  }
+
+ private:
+  /// dx times the slope across the face at one of its cells.
+  static HWY_INLINE V slope_across(const LawOnGround<even>& ground, const TilePatch& patch, V here, V z,
+                                   int row, int col, int down) {
+    const int row_step = 1 - down, col_step = down;
+    const V before = hn::LoadU(d, patch.heights(row - row_step) + col - col_step),
+            after = hn::LoadU(d, patch.heights(row + row_step) + col + col_step);
+    return central_difference(
+        here, counted(ground, here, z, row, col, before, row - row_step, col - col_step), before == before,
+        counted(ground, here, z, row, col, after, row + row_step, col + col_step), after == after);
+  }
+  /// The height there, but no further from the one here than the sand at the higher of them twice.
+  static HWY_INLINE V counted(const LawOnGround<even>& ground, V here, V z, int row, int col, V there,
+                              int there_row, int there_col) {
+    const V two = all(2.0), z_there = ground.sand(there_row, there_col, there);
+    const V height =
+        hn::IfThenElse(there > here, Min(there, here + two * z_there), Max(there, here - two * z));
+    if constexpr (even) {
+      return height;
+    } else {
+      const V weight = ground.weight(hn::LoadU(d, ground.axis_drops(row) + col),
+                                     hn::LoadU(d, ground.axis_drops(there_row) + there_col));
+      return hn::IfThenElse(weight == all(1.0), height, here + (height - here) * weight);
+    }
   }
 };
 
 /// The fluxes around the active cells, limited to what each giver has.
-template <class Sand>
+template <bool even, class Sand>
 class FacesOnGround {
  public:
   FacesOnGround(const TalusLaw& law, const GroundPatch& ground, const TilePatch& patch,
@@ -78,9 +90,8 @@ class FacesOnGround {
         rows_(rows),
         sand_(sand),
         scratch_(scratch) {
-    // What a neighbour gives depends on all of its faces.
     for (int row = rows.begin - 2; row <= rows.end; ++row) {
-      const WideRow cells = near(row), next = near(row + 1);
+      const WideRow cells = counting(row), next = counting(row + 1);
       for_groups_of({cells.own | cells.own >> 1 | static_cast<std::uint64_t>(cells.east) << (side - 1),
                      cells.west || (cells.own & 1) != 0, cells.east},
                     [&](int begin) { compute(row, begin, 0); });
@@ -88,7 +99,7 @@ class FacesOnGround {
                     [&](int begin) { compute(row, begin, 1); });
     }
     for (int row = rows.begin - 1; row <= rows.end; ++row)
-      for_groups_of(near(row), [&](int begin) { find_scales(row, begin); });
+      for_groups_of(counting(row), [&](int begin) { find_scales(row, begin); });
   }
 
   double* right(int row) const { return scratch_.factors.data() + TilePatch::start(row); }
@@ -115,10 +126,12 @@ class FacesOnGround {
   HWY_INLINE std::uint64_t active_row(int row) const {
     return row < rows_.begin || row >= rows_.end ? 0 : active_[row];
   }
-  /// The active cells and those around them.
-  HWY_INLINE WideRow near(int row) const {
+  /// The active cells, and those around them that may give: what they give depends on all of their faces.
+  HWY_INLINE WideRow counting(int row) const {
     if (row < rows_.begin - 1 || row > rows_.end) return {};
-    return widened(active_row(row - 1) | active_row(row) | active_row(row + 1));
+    const WideRow near = widened(active_row(row - 1) | active_row(row) | active_row(row + 1)),
+                  giving = sand_.givers(row);
+    return {active_row(row) | (near.own & giving.own), near.west && giving.west, near.east && giving.east};
   }
   template <class Body>
   static HWY_INLINE void for_groups_of(const WideRow& cells, const Body& body) {
@@ -144,7 +157,7 @@ class FacesOnGround {
     double* out = (down ? below(row) : right(row)) + begin;
     const bool seen = is_seen(row, begin, down);
     for (int c = 0; c < group; c += lanes) {
-      const FaceOnGround face(ground_, patch_, row, begin + c, down);
+      const FaceOnGround<even> face(ground_, patch_, row, begin + c, down);
       if (seen) sand_.meet(face.square, hn::Zero(d));
       V flux = hn::Zero(d);
       if (!hn::AllFalse(d, face.square > surely_at_rest_)) {
@@ -168,7 +181,7 @@ class FacesOnGround {
     }
   }
 
-  LawOnGround ground_;
+  LawOnGround<even> ground_;
   V limit_, surely_at_rest_, share_;
   const TilePatch& patch_;
   const CellFlags& active_;
@@ -177,11 +190,11 @@ class FacesOnGround {
   FlowScratch& scratch_;
 };
 
-template <class Sand, class Sink>
+template <bool even, class Sand, class Sink>
 HWY_INLINE void face_flow_on_ground(const TalusLaw& law, const TilePatch& patch, const CellFlags& active,
                                     RowSpan rows, const GroundPatch& ground, Sand& sand, Sink& sink,
                                     FlowScratch& scratch, TileFlow& flow) {
-  const FacesOnGround<Sand> faces(law, ground, patch, active, rows, sand, scratch);
+  const FacesOnGround<even, Sand> faces(law, ground, patch, active, rows, sand, scratch);
   sweep_faces(faces, law, active, rows, sand, sink, flow);
 }
 

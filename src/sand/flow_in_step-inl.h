@@ -52,6 +52,7 @@ HWY_INLINE Mask cells_from(const WideRow& flags, int c) {
 
 /// Plain passes: every cell may give, and nothing is recorded.
 struct FreeSand {
+  HWY_INLINE WideRow givers(int) const { return {~std::uint64_t{0}, true, true}; }
   HWY_INLINE Mask may_give(int, int) const { return hn::FirstN(d, lanes); }
   HWY_INLINE void meet(V, V) {}
   HWY_INLINE void flows(int, int, V) {}
@@ -65,6 +66,7 @@ class SteppedSand {
  public:
   SteppedSand(const FirstFlow& first, const FlowScratch& scratch)
       : first_(first), givers_(scratch.givers.data()), difference_(hn::Zero(d)) {}
+  HWY_INLINE WideRow givers(int row) const { return givers_[row + 1]; }
   HWY_INLINE Mask may_give(int row, int c) const { return cells_from(givers_[row + 1], c); }
   HWY_INLINE void meet(V axis, V diagonal) {
     steepest_.axis = higher(axis, steepest_.axis);

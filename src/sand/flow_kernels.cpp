@@ -168,15 +168,21 @@ HWY_INLINE void flow_on_ground(const TalusLaw& law, const TilePatch& patch, cons
                                RowSpan rows, const GroundPatch& ground, Sand& sand, Sink& sink,
                                FlowScratch& scratch, TileFlow& flow) {
   scratch.films = {};
+  const bool is_even = ground.has_only(law.axis_drop);
   switch (law.law) {
     case RelaxationLaw::paper:
       return flow_of(PaperOnGround(law, ground), PaperGainOnGround(law, ground), law, patch, active, rows,
                      sand, sink, scratch, flow);
     case RelaxationLaw::isotropic:
-      return flow_of(IsotropicOnGround(law, ground, scratch), GainOf<false>(law), law, patch, active, rows,
-                     sand, sink, scratch, flow);
+      if (is_even)
+        return flow_of(IsotropicOnGround<true>(law, ground, scratch), GainOf<false>(law), law, patch, active,
+                       rows, sand, sink, scratch, flow);
+      return flow_of(IsotropicOnGround<false>(law, ground, scratch), GainOf<false>(law), law, patch, active,
+                     rows, sand, sink, scratch, flow);
     case RelaxationLaw::faces:
-      return face_flow_on_ground(law, patch, active, rows, ground, sand, sink, scratch, flow);
+      if (is_even)
+        return face_flow_on_ground<true>(law, patch, active, rows, ground, sand, sink, scratch, flow);
+      return face_flow_on_ground<false>(law, patch, active, rows, ground, sand, sink, scratch, flow);
   }
 }
 
@@ -185,12 +191,12 @@ HWY_INLINE void flow_on_ground(const TalusLaw& law, const TilePatch& patch, cons
 void keep_fluxes(const TalusLaw& law, const TilePatch& patch, const TileFlow& flow,
                  const FlowScratch& scratch, TileFluxes& fluxes) {
   fluxes.clear();
-  if (const std::uint64_t moved_in = columns_of(flow.moved, flow.rows)) {
-    const int first = std::countr_zero(moved_in) / group * group;
-    fluxes.rows = {flow.rows.begin - 1, flow.rows.end};
-    fluxes.cols = {first - ((moved_in & 1) != 0 ? group : 0),
-                   (63 - std::countl_zero(moved_in)) / group * group + group};
-  }
+  if (!flow.rows.empty()) fluxes.rows = {flow.rows.begin - 1, flow.rows.end};
+  if (flow.rows.begin == 0 && !flow.rows.empty())
+    fluxes.groups[0] = static_cast<std::uint16_t>(groups_of(flow.moved[0]) << 1);
+  for (int row = flow.rows.begin; row < flow.rows.end; ++row)
+    fluxes.groups[row + 1] =
+        static_cast<std::uint16_t>(groups_of(flow.moved[row]) << 1 | (flow.moved[row] & 1));
   const auto keep = [&](int row, int c, Mask cells, int down) {
     const auto at = [&](const auto& values, int r, int col) {
       return hn::LoadU(d, values.data() + TilePatch::start(r) + col);

@@ -18,18 +18,25 @@ namespace HWY_NAMESPACE {
 
 constexpr int side = BedGeometry::tile_side;
 
+/// Calls body(column of a vector's first lane) for the vectors of a row's flagged groups (TileFluxes).
+template <class Body>
+HWY_INLINE void for_wide_vectors(unsigned groups, const Body& body) {
+  for_vectors(groups, [&](int c) { body(c - group); });
+}
+
 void AdvanceFluxes(double momentum, double step, FluxTile& tile) {
-  const RowSpan rows = tile.stage.rows = joined(tile.stage.rows, tile.flow.rows),
-                cols = tile.stage.cols = joined(tile.stage.cols, tile.flow.cols);
-  const auto advance = [&](PatchHeights& stage, const PatchHeights& flow) {
-    for (int row = rows.begin; row < rows.end; ++row)
-      for (int c = cols.begin; c < cols.end; c += lanes) {
-        double* D = stage.row(row) + c;
-        hn::Store(all(momentum) * hn::Load(d, D) + all(step) * hn::Load(d, flow.row(row) + c), d, D);
-      }
-  };
-  advance(*tile.stage.right, *tile.flow.right);
-  advance(*tile.stage.below, *tile.flow.below);
+  TileFluxes &stage = tile.stage, &flow = tile.flow;
+  stage.rows = joined(stage.rows, flow.rows);
+  for (int row = stage.rows.begin; row < stage.rows.end; ++row) {
+    stage.groups[row + 1] |= flow.groups[row + 1];
+    const auto advance = [&](double* D, const double* F) {
+      for_wide_vectors(stage.groups[row + 1], [&](int c) {
+        hn::Store(all(momentum) * hn::Load(d, D + c) + all(step) * hn::Load(d, F + c), d, D + c);
+      });
+    };
+    advance(stage.right->row(row), flow.right->row(row));
+    advance(stage.below->row(row), flow.below->row(row));
+  }
 }
 
 /// By what the fluxes out of the cells of a vector are multiplied.
@@ -51,17 +58,19 @@ HeightRange FluxStage(const GroundPatch& ground, const CellFlags& active, RowSpa
                       TilePatch& patch, SuperStepTile& kept, CellFlags& changed) {
   thread_local PatchHeights scales;
   const TileFluxes& D = tile.stage;
-  // Elsewhere nothing flows, and all D are 0.
-  const RowSpan face_rows = tile.flow.rows = D.rows, face_cols = tile.flow.cols = D.cols;
-  for (int row = face_rows.begin; row <= face_rows.end; ++row)
-    for (int c = face_cols.begin; c < face_cols.end + group; c += lanes)
-      hn::Store(scale_of(D, ground, patch, row, c), d, scales.row(row) + c);
-  for (int row = face_rows.begin; row < face_rows.end; ++row)
-    for (int c = face_cols.begin; c < face_cols.end; c += lanes) {
+  for (int row = D.rows.begin; row <= D.rows.end; ++row) {
+    const unsigned givers = D.groups_in(row) | D.groups_in(row) << 1 | D.groups_in(row - 1);
+    for_wide_vectors(givers,
+                     [&](int c) { hn::Store(scale_of(D, ground, patch, row, c), d, scales.row(row) + c); });
+  }
+  tile.flow.rows = D.rows;
+  tile.flow.groups = D.groups;
+  for (int row = D.rows.begin; row < D.rows.end; ++row)
+    for_wide_vectors(D.groups_in(row), [&](int c) {
       const double* scale = scales.row(row) + c;
       hn::Store(limited(D.right->row(row) + c, scale, 1), d, tile.flow.right->row(row) + c);
       hn::Store(limited(D.below->row(row) + c, scale, PatchLayout::stride), d, tile.flow.below->row(row) + c);
-    }
+    });
   Range range;
   for (int row = rows.begin; row < rows.end; ++row) {
     const unsigned wanted = groups_of(active[row]);
@@ -105,28 +114,45 @@ void advance_fluxes(double momentum, double step, FluxTile& tile) {
 
 namespace {
 
-/// Copies to the rim of a tile's D the faces around its neighbours' cells.
+/// Copies to the rim of a tile's D the faces around its neighbours' cells, where these may give through
+/// faces of the tile.
 void load_rim_fluxes(const FluxesAround& around) {
   constexpr int side = PatchLayout::side;
   TileFluxes& own = *around[4];
-  const auto copy = [&](PatchHeights& to, int row, int col, const TileFluxes* tile, bool right, int from_row,
-                        int from_col, int count) {
+  const auto copy_row = [](PatchHeights& to, int row, int col, const PatchHeights* from, int from_row,
+                           int count) {
     double* out = to.row(row) + col;
-    if (!tile) return void(std::fill_n(out, count, 0.0));
-    const PatchHeights& from = right ? *tile->right : *tile->below;
-    std::copy_n(from.row(from_row) + from_col, count, out);
+    if (from)
+      std::copy_n(from->row(from_row) + col, count, out);
+    else
+      std::fill_n(out, count, 0.0);
   };
-  const TileFluxes *north = around[1], *west = around[3], *east = around[5], *south = around[7];
-  copy(*own.right, -1, -1, north, true, side - 1, -1, side + 1);
-  copy(*own.below, -2, 0, north, false, side - 2, 0, side);
-  copy(*own.right, side, -1, south, true, 0, -1, side + 1);
-  copy(*own.below, side, 0, south, false, 0, 0, side);
-  for (int row = -1; row < side; ++row) {
-    copy(*own.below, row, -1, west, false, row, side - 1, 1);
-    copy(*own.below, row, side, east, false, row, 0, 1);
-    if (row < 0) continue;
-    copy(*own.right, row, -2, west, true, row, side - 2, 1);
-    copy(*own.right, row, side, east, true, row, 0, 1);
+  const auto right_of = [&](int at) { return around[at] ? around[at]->right.get() : nullptr; };
+  const auto below_of = [&](int at) { return around[at] ? around[at]->below.get() : nullptr; };
+  constexpr int north = 1, west = 3, east = 5, south = 7;
+  if (own.groups_in(-1) != 0) {
+    copy_row(*own.right, -1, -1, right_of(north), side - 1, side + 1);
+    copy_row(*own.below, -2, 0, below_of(north), side - 2, side);
+  }
+  if (own.groups_in(side - 1) != 0) {
+    copy_row(*own.right, side, -1, right_of(south), 0, side + 1);
+    copy_row(*own.below, side, 0, below_of(south), 0, side);
+  }
+  const auto copy_cell = [](PatchHeights& to, int row, int col, const PatchHeights* from, int from_col) {
+    to.row(row)[col] = from ? from->row(row)[from_col] : 0.0;
+  };
+  for (int row = std::max(own.rows.begin, 0); row < own.rows.end; ++row) {
+    const unsigned groups = own.groups_in(row);
+    if (groups & 1) {
+      copy_cell(*own.right, row, -2, right_of(west), side - 2);
+      copy_cell(*own.below, row, -1, below_of(west), side - 1);
+      copy_cell(*own.below, row - 1, -1, below_of(west), side - 1);
+    }
+    if (groups >> (side / cells_per_group) & 1) {
+      copy_cell(*own.right, row, side, right_of(east), 0);
+      copy_cell(*own.below, row, side, below_of(east), 0);
+      copy_cell(*own.below, row - 1, side, below_of(east), 0);
+    }
   }
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <memory>
 #include <utility>
 
@@ -14,25 +17,30 @@ namespace sandstroke {
 struct TileFluxes {
   std::unique_ptr<PatchHeights> right = std::make_unique<PatchHeights>(),
                                 below = std::make_unique<PatchHeights>();
-  // Where something may flow: rows from -1 on, and columns from -cells_per_group on, in whole groups.
-  RowSpan rows = {}, cols = {};
+  /// Where something may flow, from row -1 on: bit g + 1 of a row is its group g, from -1 on. Elsewhere all
+  /// are 0.
+  std::array<std::uint16_t, PatchLayout::side + 1> groups{};
+  RowSpan rows = {};  ///< that hold these groups
 
   TileFluxes() {
     right->fill(0.0);
     below->fill(0.0);
   }
+  unsigned groups_in(int row) const { return row < rows.begin || row >= rows.end ? 0 : groups[row + 1]; }
   /// Nothing flows.
   void clear() {
-    for (PatchHeights* fluxes : {right.get(), below.get()})
-      for (int row = rows.begin; row < rows.end; ++row)
-        std::fill_n(fluxes->row(row) + cols.begin, cols.end - cols.begin, 0.0);
-    rows = cols = {};
+    for (int row = rows.begin; row < rows.end; ++row)
+      for (unsigned left = std::exchange(groups[row + 1], std::uint16_t{0}); left; left &= left - 1)
+        for (PatchHeights* fluxes : {right.get(), below.get()})
+          std::fill_n(fluxes->row(row) + (std::countr_zero(left) - 1) * cells_per_group, cells_per_group,
+                      0.0);
+    rows = {};
   }
   void swap(TileFluxes& other) {
     right.swap(other.right);
     below.swap(other.below);
     std::swap(rows, other.rows);
-    std::swap(cols, other.cols);
+    groups.swap(other.groups);
   }
 };
 

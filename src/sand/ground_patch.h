@@ -15,6 +15,8 @@ struct GroundPatch {
   bool is_even = false;     ///< T of all these cells is only_drop
   double only_drop = 0.0;   ///< m
 
+  /// Whether T of all these cells is this [m].
+  bool has_only(double axis_drop) const { return is_even && only_drop == axis_drop; }
   /// Loads a tile (by index), unless it is loaded. The level floor matters only if `near_level`.
   void load(const std::shared_ptr<const Ground>& ground, int tile, bool near_level);
 

@@ -20,7 +20,9 @@ namespace HWY_NAMESPACE {
 /// Each lower neighbour's drop, or 0.
 HWY_INLINE V falling(V drop) { return where(drop > hn::Zero(d), drop); }
 
-/// T and the sand of the cells in a vector.
+/// T and the sand of the cells in a vector. even: T is the law's in all cells, with the same bits as if each
+/// had its own.
+template <bool even>
 class LawOnGround {
  public:
   LawOnGround(const TalusLaw& law, const GroundPatch& ground)
@@ -29,7 +31,6 @@ class LawOnGround {
         most_given_(all(law.most_given)),
         half_(all(0.5)),
         one_(all(1.0)),
-        is_even_(ground.is_even && ground.only_drop == law.axis_drop),
         ground_(ground) {}
 
   HWY_INLINE const double* axis_drops(int row) const { return ground_.axis_drops.row(row); }
@@ -37,7 +38,10 @@ class LawOnGround {
   HWY_INLINE V between(V here, V there) const { return half_ * (here + there); }
   /// By what a drop to a neighbour is multiplied, so that it may be as large as the law's T.
   HWY_INLINE V weight(V here, V there) const {
-    return is_even_ ? one_ : law_drop / between(here, there);  // the same bits
+    if constexpr (even)
+      return one_;
+    else
+      return law_drop / between(here, there);
   }
   /// z [m].
   HWY_INLINE V sand(int row, int c, V height) const {
@@ -50,12 +54,12 @@ class LawOnGround {
 
  private:
   V thinnest_, most_given_, half_, one_;
-  bool is_even_;
   const GroundPatch& ground_;
 };
 
 /// The square of dx |g| by `isotropic`, as if T were the law's.
-HWY_INLINE V squared_slope_on(const LawOnGround& ground, const Around& a, int row, int c) {
+template <bool even>
+HWY_INLINE V squared_slope_on(const LawOnGround<even>& ground, const Around& a, int row, int c) {
   const Around T(ground.axis_drops(row), c);
   const V zero = hn::Zero(d);
   const auto slope = [&](V neighbour, V its_T) { return (a.m - neighbour) * ground.weight(T.m, its_T); };
@@ -76,8 +80,9 @@ HWY_INLINE void flag_films(int row, int c, Mask emptied, FlowScratch& scratch) {
     films.own |= flags << c;
 }
 
+template <bool even>
 struct IsotropicOnGround {
-  LawOnGround ground;
+  LawOnGround<even> ground;
   V limit, surely_at_rest, share, one;
   FlowScratch* scratch;  ///< for the films
   IsotropicOnGround(const TalusLaw& law, const GroundPatch& patch, FlowScratch& of_pass)
@@ -115,7 +120,7 @@ struct IsotropicOnGround {
 };
 
 struct PaperOnGround {
-  LawOnGround ground;
+  LawOnGround<false> ground;
   V tolerated, share, diagonal;
   PaperOnGround(const TalusLaw& law, const GroundPatch& patch)
       : ground(law, patch),
@@ -170,7 +175,7 @@ struct PaperOnGround {
 
 /// Inflow less outflow by `paper`, with the factors of PaperOnGround.
 struct PaperGainOnGround {
-  LawOnGround ground;
+  LawOnGround<false> ground;
   V diagonal;
   PaperGainOnGround(const TalusLaw& law, const GroundPatch& patch)
       : ground(law, patch), diagonal(all(std::numbers::sqrt2)) {}
