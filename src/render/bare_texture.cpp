@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "render/cell_ranges.h"
+#include "sand/cell_ranges.h"
 
 namespace sandstroke {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/cell_ranges.h"
 #include "render/shaders.h"
+#include "sand/cell_ranges.h"
 
 namespace sandstroke {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/machine.h"
 #include "core/parallel.h"
-#include "render/cell_ranges.h"
+#include "sand/cell_ranges.h"
 
 namespace sandstroke {
 namespace {

@@ -70,16 +70,19 @@ Funnels::Funnels(const HeightField& bed, const std::vector<BlockRanges>& ranges,
     for (int col = cols_ - 1; col >= 0; --col) spread(row, col, 1);
 }
 
-std::uint64_t Funnels::blocks_below(const HeightField& bed, int tile, const BlockRanges& ranges,
-                                    double least) const {
+Funnels::Below Funnels::below(const HeightField& bed, int tile, const BlockRanges& ranges,
+                              double least) const {
   constexpr int side = BlockRanges::side;
   const int row = tile / bed.tile_cols() * side, col = tile % bed.tile_cols() * side;
-  std::uint64_t flags = 0;
+  Below found;
   for (int i = 0; i < side; ++i)
-    for (int j = 0; j < side; ++j)
-      if (level(row + i, col + j) - ranges.of(i * side + j).low > least)
-        flags |= std::uint64_t{1} << (i * side + j);
-  return flags;
+    for (int j = 0; j < side; ++j) {
+      const double depth = level(row + i, col + j) - ranges.of(i * side + j).low;
+      if (!(depth > least)) continue;
+      found.blocks |= std::uint64_t{1} << (i * side + j);
+      found.most = std::max(found.most, depth);
+    }
+  return found;
 }
 
 }  // namespace sandstroke

@@ -38,8 +38,12 @@ class Funnels {
   double level(int block_row, int block_col) const {
     return levels_[static_cast<std::size_t>(block_row - row_begin_) * cols_ + (block_col - col_begin_)];
   }
-  /// The blocks of a tile (by index) that have cells more than `least` [m] below their funnel: bit 8 i + j.
-  std::uint64_t blocks_below(const HeightField& bed, int tile, const BlockRanges& ranges, double least) const;
+  struct Below {
+    std::uint64_t blocks = 0;  ///< bit 8 i + j
+    double most = 0.0;         ///< m
+  };
+  /// The blocks of a tile (by index) that have cells more than `least` [m] below their funnel, and the most.
+  Below below(const HeightField& bed, int tile, const BlockRanges& ranges, double least) const;
 
  private:
   int row_begin_, col_begin_, rows_, cols_;

@@ -3,26 +3,17 @@
 #include <algorithm>
 #include <limits>
 
+#include "sand/cell_ranges.h"
+
 namespace sandstroke {
 namespace {
 
-constexpr int rim = PatchLayout::rim, side = PatchLayout::side;
-
-/// Copies a row of the field, from the rim before this column to the one after its tile. NaN outside the bed.
-void copy_row(const HeightField& field, int row, int first_col, double* out) {
-  std::fill_n(out - rim, side + 2 * rim, std::numeric_limits<double>::quiet_NaN());
-  if (row < 0 || row >= field.rows()) return;
-  const int end = std::min(first_col + side + rim, field.cols());
-  for (int col = std::max(first_col - rim, 0); col < end;) {
-    const int tile = field.tile_index(row / side, col / side), slot = field.slot_of(tile),
-              until = std::min(end, (col / side + 1) * side);
-    if (slot >= 0)
-      std::copy_n(field.tile_heights(slot) + row % side * side + col % side, until - col,
-                  out + col - first_col);
-    else
-      for (int c = col; c < until; ++c) out[c - first_col] = field.untouched().height(field, row, c);
-    col = until;
-  }
+/// Lays out the cells of a tile of a field and its rim. NaN outside the bed.
+void read_around(const HeightField& field, const CellRange& tile, PatchHeights& out) {
+  out.fill(std::numeric_limits<double>::quiet_NaN());
+  const CellRange cells = common(grown(tile, PatchLayout::rim), {0, field.rows(), 0, field.cols()});
+  field.read_cells(cells, out.row(cells.row_begin - tile.row_begin) + (cells.col_begin - tile.col_begin),
+                   PatchLayout::stride);
 }
 
 }  // namespace
@@ -33,22 +24,19 @@ void GroundPatch::load(const std::shared_ptr<const Ground>& ground, int tile, bo
   tile_ = tile;
   near_level_ = near_level;
   has_floor = near_level || ground->has_floor_around(tile);
+  constexpr int rim = PatchLayout::rim, side = PatchLayout::side;
   const CellRange cells = ground->floor.tile_cells(tile);
-  const double cell_size = ground->floor.cell_size(), level = ground->level(),
-               none = -std::numeric_limits<double>::infinity();
+  const double cell_size = ground->floor.cell_size();
   only_drop = ground->talus_slopes.untouched().highest() * cell_size;
   is_even = !ground->has_slopes_around(tile);
+  read_around(ground->floor, cells, floor);
+  if (!is_even) read_around(ground->talus_slopes, cells, axis_drops);
   for (int row = -rim; row < side + rim; ++row) {
-    const int r = cells.row_begin + row;
     double *T = axis_drops.row(row), *s = floor.row(row);
-    copy_row(ground->floor, r, cells.col_begin, s);
-    if (!near_level) std::replace(s - rim, s + side + rim, level, none);
-    if (is_even) {
-      for (int col = -rim; col < side + rim; ++col) T[col] = s[col] == s[col] ? only_drop : s[col];
-    } else {
-      copy_row(ground->talus_slopes, r, cells.col_begin, T);
-      for (int col = -rim; col < side + rim; ++col) T[col] *= cell_size;
-    }
+    for (int col = -rim; col < side + rim; ++col)
+      T[col] = is_even ? (s[col] == s[col] ? only_drop : s[col]) : T[col] * cell_size;
+    if (!near_level)
+      std::replace(s - rim, s + side + rim, ground->level(), -std::numeric_limits<double>::infinity());
   }
 }
 

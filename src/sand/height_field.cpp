@@ -7,6 +7,7 @@
 #include "core/compensated_sum.h"
 #include "core/error.h"
 #include "core/hash.h"
+#include "sand/cell_ranges.h"
 #include "sand/ground.h"
 
 namespace sandstroke {
@@ -154,12 +155,19 @@ void HeightField::set_tool_walls(const std::vector<RowCells>& cells) {
   tool_walls_ = cells;
 }
 
-void HeightField::read_tile(int tile, double* out, std::ptrdiff_t stride) const {
-  const int slot = slot_of(tile);
-  const CellRange cells = tile_cells(tile);
-  if (slot < 0) return untouched_->fill(*this, cells, out, stride);
-  for (int row = 0; row < cells.rows(); ++row)
-    std::copy_n(tile_heights(slot) + row * tile_side, cells.cols(), out + row * stride);
+void HeightField::read_cells(const CellRange& cells, double* out, std::ptrdiff_t stride) const {
+  for (int i = cells.row_begin / tile_side; i * tile_side < cells.row_end; ++i)
+    for (int j = cells.col_begin / tile_side; j * tile_side < cells.col_end; ++j) {
+      const int tile = tile_index(i, j), slot = slot_of(tile);
+      const CellRange part = common(tile_cells(tile), cells);
+      double* to = out + (part.row_begin - cells.row_begin) * stride + (part.col_begin - cells.col_begin);
+      if (slot < 0) {
+        untouched_->fill(*this, part, to, stride);
+        continue;
+      }
+      for (int row = part.row_begin; row < part.row_end; ++row, to += stride)
+        std::copy_n(tile_heights(slot) + in_tile(row, part.col_begin), part.cols(), to);
+    }
 }
 
 HeightGrid HeightField::grid() const {

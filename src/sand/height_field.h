@@ -144,7 +144,11 @@ class HeightField : public BedGeometry {
   }
   /// Copies a tile (by index), allocated or not, to `out`, rows `stride` apart. Leaves out cells outside the
   /// bed.
-  void read_tile(int tile, double* out, std::ptrdiff_t stride = tile_side) const;
+  void read_tile(int tile, double* out, std::ptrdiff_t stride = tile_side) const {
+    read_cells(tile_cells(tile), out, stride);
+  }
+  /// The same of a rectangle of cells inside the bed.
+  void read_cells(const CellRange& cells, double* out, std::ptrdiff_t stride) const;
 
   /// All that later changes depend on, but for the rule. Error: input, of another bed's state, and if the
   /// rule is another one.

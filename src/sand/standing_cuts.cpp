@@ -1,37 +1,39 @@
 #include "sand/standing_cuts.h"
 
-#include <array>
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "core/parallel.h"
+#include "sand/cell_ranges.h"
 #include "sand/ground.h"
 
 namespace sandstroke {
 namespace {
 
-/// Heights and intact levels of a rectangle of whole tiles, as the rule asks for them.
+/// Heights and intact levels of a rectangle of cells, as the rule asks for them.
 class Window {
  public:
-  Window(const HeightField& bed, const HeightField& level, const Cohesion& cohesion, const CellRange& tiles)
+  Window(const HeightField& bed, const HeightField& level, const Cohesion& cohesion, double highest_floor,
+         const CellRange& cells)
       : bed_(bed),
         cohesion_(cohesion),
-        highest_floor_(bed.ground() ? bed.ground()->floor.highest()
-                                    : -std::numeric_limits<double>::infinity()),
-        cells_(bed.cells_of_tiles(tiles)),
-        stride_(cells_.cols()),
-        columns_(static_cast<std::size_t>(cells_.rows()) * stride_) {
-    std::vector<double> heights(columns_.size()), levels(columns_.size());
-    for (int i = tiles.row_begin; i < tiles.row_end; ++i)
-      for (int j = tiles.col_begin; j < tiles.col_end; ++j) {
-        const int tile = bed.tile_index(i, j);
-        const std::size_t at = index(i * HeightField::tile_side, j * HeightField::tile_side);
-        bed.read_tile(tile, heights.data() + at, static_cast<std::ptrdiff_t>(stride_));
-        level.read_tile(tile, levels.data() + at, static_cast<std::ptrdiff_t>(stride_));
-      }
-    for (std::size_t i = 0; i < columns_.size(); ++i) columns_[i] = {heights[i], levels[i]};
+        highest_floor_(highest_floor),
+        cells_(cells),
+        columns_(std::make_unique_for_overwrite<Column[]>(index(cells.row_end, cells.col_begin))) {
+    const std::ptrdiff_t cols = cells.cols();
+    std::vector<double> heights(cols), levels(cols);
+    for (int row = cells.row_begin; row < cells.row_end; ++row) {
+      const CellRange one{row, row + 1, cells.col_begin, cells.col_end};
+      bed.read_cells(one, heights.data(), cols);
+      level.read_cells(one, levels.data(), cols);
+      Column* out = &columns_[index(row, cells.col_begin)];
+      for (std::ptrdiff_t i = 0; i < cols; ++i) out[i] = {heights[i], levels[i]};
+    }
   }
 
   int rows() const { return bed_.rows(); }
@@ -51,7 +53,7 @@ class Window {
 
  private:
   std::size_t index(int row, int col) const {
-    return static_cast<std::size_t>(row - cells_.row_begin) * stride_ +
+    return static_cast<std::size_t>(row - cells_.row_begin) * cells_.cols() +
            static_cast<std::size_t>(col - cells_.col_begin);
   }
 
@@ -59,26 +61,25 @@ class Window {
   const Cohesion& cohesion_;
   double highest_floor_;
   CellRange cells_;
-  std::size_t stride_;
   struct Column {
     double height, intact;  // m
   };
-  std::vector<Column> columns_;
+  std::unique_ptr<Column[]> columns_;
 };
 
 /// The tiles within so many of a tile, by tile rows and columns.
 CellRange tiles_around(const HeightField& bed, int tile, int reach) {
   const int row = tile / bed.tile_cols(), col = tile % bed.tile_cols();
-  return {std::max(0, row - reach), std::min(bed.tile_rows(), row + reach + 1), std::max(0, col - reach),
-          std::min(bed.tile_cols(), col + reach + 1)};
+  return common(grown({row, row + 1, col, col + 1}, reach), {0, bed.tile_rows(), 0, bed.tile_cols()});
 }
 
 double area(const CellRange& cells) { return static_cast<double>(cells.rows()) * cells.cols(); }
 
-/// The least rectangle of tiles that holds these, by tile rows and columns.
-CellRange joined(const CellRange& a, const CellRange& b) {
-  return {std::min(a.row_begin, b.row_begin), std::max(a.row_end, b.row_end),
-          std::min(a.col_begin, b.col_begin), std::max(a.col_end, b.col_end)};
+/// The cells of a block of a tile.
+CellRange cells_of_block(const CellRange& tile, int at) {
+  constexpr int block = BlockRanges::block, side = BlockRanges::side;
+  const int row = tile.row_begin + at / side * block, col = tile.col_begin + at % side * block;
+  return common({row, row + block, col, col + block}, tile);
 }
 
 /// The greatest of the values, by tile, within so many tiles of each.
@@ -182,8 +183,9 @@ void StandingCuts::know_ranges(const HeightField& bed) {
   for (int tile = 0; tile < bed.tile_count(); ++tile) ranges_[tile].know(bed, tile);
 }
 
-std::vector<StandingCuts::TileToLookAt> StandingCuts::tiles_to_look_at(const HeightField& bed,
-                                                                       double safe_height, bool everywhere) {
+std::vector<StandingCuts::TileToLookAt> StandingCuts::tiles_to_look_at(const HeightField& bed, double least,
+                                                                       bool everywhere) {
+  const double safe = factor_.safe_height() * least, per_cell = factor_.friction() * bed.cell_size();
   double low = ranges_[0].whole.low, high = ranges_[0].whole.high;
   std::vector<double> changed(bed.tile_count()), highs(bed.tile_count());
   bool any = false;
@@ -195,24 +197,35 @@ std::vector<StandingCuts::TileToLookAt> StandingCuts::tiles_to_look_at(const Hei
     any = any || changed[tile] > 0.0;
     seen_[tile] = bed.tile_revision(tile);
   }
-  if (!any || high - low <= safe_height) return {};
+  if (!any || high - low <= safe) return {};
   // A ray goes on until its chord would be flatter than mu, and a cell further; a face is looked for around.
-  const double cells = (high - low) / (factor_.friction() * bed.cell_size()) + standing::reach + 2.0;
-  reach_ = static_cast<int>(
-      std::min(std::ceil(cells / HeightField::tile_side), 1.0 * std::max(bed.tile_rows(), bed.tile_cols())));
-  const std::vector<double> top_near = greatest_near(bed, highs, reach_),
-                            changed_near = greatest_near(bed, changed, reach_);
+  constexpr int beyond = standing::reach + 2;
+  const int reach =
+      static_cast<int>(std::min(std::ceil(((high - low) / per_cell + beyond) / BedGeometry::tile_side),
+                                1.0 * std::max(bed.tile_rows(), bed.tile_cols())));
+  const std::vector<double> top_near = greatest_near(bed, highs, reach),
+                            changed_near = greatest_near(bed, changed, reach);
   std::vector<TileToLookAt> tiles;
-  CellRange around{bed.tile_rows(), 0, bed.tile_cols(), 0};
+  CellRange seen;
   for (int tile = 0; tile < bed.tile_count(); ++tile) {
-    if (changed_near[tile] == 0.0 || top_near[tile] - ranges_[tile].whole.low <= safe_height) continue;
-    tiles.push_back({tile, 0, top_near[tile]});
-    around = joined(around, tiles_around(bed, tile, reach_));
+    if (changed_near[tile] == 0.0 || top_near[tile] - ranges_[tile].whole.low <= safe) continue;
+    tiles.push_back({tile, 0, top_near[tile], {}});
+    seen = around(seen, tiles_around(bed, tile, reach));
   }
   if (tiles.empty()) return {};
-  funnels_.emplace(bed, ranges_, around, factor_.friction());
-  for (TileToLookAt& one : tiles)
-    one.blocks = funnels_->blocks_below(bed, one.tile, ranges_[one.tile], safe_height - spare());
+  funnels_.emplace(bed, ranges_, seen, factor_.friction());
+  highest_floor_ = bed.ground() ? bed.ground()->floor.highest() : -std::numeric_limits<double>::infinity();
+  for (TileToLookAt& one : tiles) {
+    const Funnels::Below below = funnels_->below(bed, one.tile, ranges_[one.tile], safe - spare());
+    one.blocks = below.blocks;
+    const double toe = ranges_[one.tile].whole.low,
+                 longest = longest_run(toe, std::min(one.top - toe, below.most + spare()), one.top, least);
+    const CellRange cells = bed.tile_cells(one.tile);
+    for (std::uint64_t left = below.blocks; left; left &= left - 1)
+      one.rays = around(one.rays, cells_of_block(cells, std::countr_zero(left)));
+    one.rays = common(grown(one.rays, static_cast<int>(std::ceil(longest / bed.cell_size())) + beyond),
+                      {0, bed.rows(), 0, bed.cols()});
+  }
   std::erase_if(tiles, [](const TileToLookAt& one) { return one.blocks == 0; });
   return tiles;
 }
@@ -222,45 +235,39 @@ StandingCuts::Look StandingCuts::look(HeightField& bed, const Cohesion& cohesion
   const double least = std::max(0.0, cohesion.least - cohesion.dried), safe = factor_.safe_height() * least,
                mu = factor_.friction();
   const std::vector<TileToLookAt> tiles =
-      tiles_to_look_at(bed, safe, std::exchange(dried_, cohesion.dried) != cohesion.dried);
+      tiles_to_look_at(bed, least, std::exchange(dried_, cohesion.dried) != cohesion.dried);
   if (tiles.empty()) return {};
   std::vector<std::vector<Failure>> found(tiles.size());
   std::vector<std::int64_t> toes(tiles.size(), 0);
   // One window for all rays, if it is no larger than theirs together.
-  CellRange all = tiles_around(bed, tiles[0].tile, reach_);
+  CellRange all;
   double sum = 0.0;
   for (const TileToLookAt& one : tiles) {
-    const CellRange around = tiles_around(bed, one.tile, reach_);
-    all = joined(all, around);
-    sum += area(around);
+    all = around(all, one.rays);
+    sum += area(one.rays);
   }
   std::optional<Window> shared;
-  if (area(all) <= sum) shared.emplace(bed, level_, cohesion, all);
+  if (area(all) <= sum) shared.emplace(bed, level_, cohesion, highest_floor_, all);
   parallel_for(tiles.size(), [&](std::size_t i) {
-    const int tile = tiles[i].tile;
     const double top = tiles[i].top;
     std::optional<Window> own;
-    if (!shared) own.emplace(bed, level_, cohesion, tiles_around(bed, tile, reach_));
+    if (!shared) own.emplace(bed, level_, cohesion, highest_floor_, tiles[i].rays);
     const Window& sand = shared ? *shared : *own;
     const auto look_at_cell = [&](int row, int col, double funnel) {
       const double toe = sand.height(row, col), above = std::min(top - toe, funnel - toe + spare());
       if (above <= safe || !is_toe(sand, row, col, mu) || bed.is_wall(row, col)) return;
       ++toes[i];
       const Uphill uphill = uphill_of(sand, row, col, mu);
-      const double longest =
-          sand.highest_floor() > toe ? (top - toe) / mu : factor_.longest_run(above, top - toe, least);
-      const Wedge wedge = worst_wedge(sand, row, col, uphill, factor_, longest, 1.0);
+      const Wedge wedge =
+          worst_wedge(sand, row, col, uphill, factor_, longest_run(toe, above, top, least), 1.0);
       if (wedge.need > 1.0) found[i].push_back({row, col, toe, uphill, wedge});
     };
-    const CellRange cells = bed.tile_cells(tile);
     for (std::uint64_t left = tiles[i].blocks; left; left &= left - 1) {
-      constexpr int block = BlockRanges::block, side = BlockRanges::side;
-      const int at = std::countr_zero(left), row_begin = cells.row_begin + at / side * block,
-                col_begin = cells.col_begin + at % side * block;
-      const double funnel = funnels_->level(row_begin / block, col_begin / block);
-      for (int row = row_begin; row < std::min(row_begin + block, cells.row_end); ++row)
-        for (int col = col_begin; col < std::min(col_begin + block, cells.col_end); ++col)
-          look_at_cell(row, col, funnel);
+      const CellRange cells = cells_of_block(bed.tile_cells(tiles[i].tile), std::countr_zero(left));
+      const double funnel =
+          funnels_->level(cells.row_begin / BlockRanges::block, cells.col_begin / BlockRanges::block);
+      for (int row = cells.row_begin; row < cells.row_end; ++row)
+        for (int col = cells.col_begin; col < cells.col_end; ++col) look_at_cell(row, col, funnel);
     }
   });
   Look look;
@@ -308,17 +315,16 @@ void StandingCuts::lower(const HeightField& bed, const HeightField& before,
   for (int tile = 0; tile < bed.tile_count(); ++tile) {
     if (near[tile] == 0.0) continue;
     const CellRange cells = bed.tile_cells(tile);
-    const CellRange around{std::max(0, cells.row_begin - rim), std::min(bed.rows(), cells.row_end + rim),
-                           std::max(0, cells.col_begin - rim), std::min(bed.cols(), cells.col_end + rim)};
-    HeightGrid then(around.rows(), around.cols()), now(around.rows(), around.cols());
-    for (int row = 0; row < around.rows(); ++row)
-      for (int col = 0; col < around.cols(); ++col) {
-        then(row, col) = before(around.row_begin + row, around.col_begin + col);
-        now(row, col) = level_(around.row_begin + row, around.col_begin + col);
+    const CellRange wide = common(grown(cells, rim), {0, bed.rows(), 0, bed.cols()});
+    HeightGrid then(wide.rows(), wide.cols()), now(wide.rows(), wide.cols());
+    for (int row = 0; row < wide.rows(); ++row)
+      for (int col = 0; col < wide.cols(); ++col) {
+        then(row, col) = before(wide.row_begin + row, wide.col_begin + col);
+        now(row, col) = level_(wide.row_begin + row, wide.col_begin + col);
       }
     open_level(then, now);
-    opened.emplace_back(cells, now.block(cells.row_begin - around.row_begin,
-                                         cells.col_begin - around.col_begin, cells.rows(), cells.cols()));
+    opened.emplace_back(cells, now.block(cells.row_begin - wide.row_begin, cells.col_begin - wide.col_begin,
+                                         cells.rows(), cells.cols()));
   }
   for (const auto& [cells, levels] : opened)
     for (int row = 0; row < cells.rows(); ++row)

@@ -71,13 +71,21 @@ class StandingCuts {
   /// Funnels are those of the cells. Between them sand may reach in, and chords begin at a face's foot, up to
   /// half a cell further.
   double spare() const { return 2.5 * factor_.friction() * level_.cell_size(); }
-  /// A tile to look at, by index, and its blocks of which wedges may fail (Funnels::blocks_below).
+  /// A tile to look at, by index.
   struct TileToLookAt {
     int tile;
-    std::uint64_t blocks;
-    double top;  // m: no sand that its rays may come to is higher
+    std::uint64_t blocks;  // whose wedges may fail (Funnels::below)
+    double top;            // m: no sand that its rays may come to is higher
+    CellRange rays;        // the cells that they may come to
   };
-  std::vector<TileToLookAt> tiles_to_look_at(const HeightField& bed, double safe_height, bool everywhere);
+  /// least: of the cohesion over the weight per volume [m].
+  std::vector<TileToLookAt> tiles_to_look_at(const HeightField& bed, double least, bool everywhere);
+  /// The run [m] beyond which no wedge of a toe fails. above, top [m]: as in CohesionFactor::longest_run,
+  /// that is, with no floor above the toe.
+  double longest_run(double toe, double above, double top, double least) const {
+    return highest_floor_ > toe ? (top - toe) / factor_.friction()
+                                : factor_.longest_run(above, top - toe, least);
+  }
   /// before: the level as it is.
   void lower(const HeightField& bed, const HeightField& before, const std::vector<Failure>& failures);
 
@@ -90,8 +98,9 @@ class StandingCuts {
   std::vector<int> dry_tiles_;         // by index, that have dry sand beside moist sand
   double dry_since_ = -1.0;            // m, dried when they were found; below 0: never
   double dried_ = 0.0;                 // m, in the last look
-  int reach_ = 0;                      // tiles, that a ray may go
-  std::optional<Funnels> funnels_;     // of the last look
+  // Of the last look:
+  std::optional<Funnels> funnels_;
+  double highest_floor_ = 0.0;  // m
 };
 
 }  // namespace sandstroke

@@ -71,10 +71,11 @@ TEST(Funnels, TellTheBlocksThatHaveLowCells) {
   bed.set(40, 40, 0.1);
   const std::vector<BlockRanges> ranges = ranges_of(bed);
   const Funnels funnels(bed, ranges, {0, 2, 0, 2}, slope);
-  const std::uint64_t blocks = funnels.blocks_below(bed, 0, ranges[0], 0.09);
+  const auto [blocks, most] = funnels.below(bed, 0, ranges[0], 0.09);
+  EXPECT_EQ(most, 0.1);
   EXPECT_EQ(blocks >> (5 * 8 + 5) & 1, 1u);
   EXPECT_EQ(blocks & 1, 0u);
-  EXPECT_EQ(funnels.blocks_below(bed, 3, ranges[3], 0.09), 0u);
+  EXPECT_EQ(funnels.below(bed, 3, ranges[3], 0.09).blocks, 0u);
 }
 
 }  // namespace
