@@ -15,6 +15,7 @@ std::vector<KeySection> all_scene_keys() {
     scene.ground.regions.emplace_back().k_s = 0.0;
     scene.ground.layers.emplace_back();
     scene.ground.stones.emplace_back();
+    scene.moisture.emplace();
     scene.sources.emplace_back();
     describe_scene_file(visitor, scene);
   });

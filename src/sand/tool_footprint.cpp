@@ -86,28 +86,13 @@ void ToolFootprint::make_room() {
   flags_.resize(room_ / cells_per_group + 1);
 }
 
-void ToolFootprint::read(const HeightField& field, double* out) const {
-  constexpr int side = BedGeometry::tile_side;
-  for_tile_columns(cells_, [&](int tile_col, int first, int end) {
-    for (int row = cells_.row_begin; row < cells_.row_end; ++row) {
-      double* cells = out + at(row - cells_.row_begin) + (first - cells_.col_begin);
-      const int slot = field.slot_of(field.tile_index(row / side, tile_col));
-      if (slot < 0) {
-        field.untouched().fill(field, {row, row + 1, first, end}, cells, stride_);
-      } else {
-        std::copy_n(field.tile_heights(slot) + (row % side) * side + first % side, end - first, cells);
-      }
-    }
-  });
-}
-
-void ToolFootprint::read_heights(const HeightField& bed) { read(bed, heights_.data()); }
+void ToolFootprint::read_heights(const HeightField& bed) { bed.read_cells(cells_, heights_.data(), stride_); }
 
 void ToolFootprint::read_floors(const HeightField& bed) {
   highest_floor_ = -std::numeric_limits<double>::infinity();
   if (!bed.ground() || !bed.ground()->has_floor()) return;
   floors_.resize(room_, highest_floor_);
-  read(bed.ground()->floor, floors_.data());
+  bed.ground()->floor.read_cells(cells_, floors_.data(), stride_);
   for (int row = 0; row < cells_.rows(); ++row)
     highest_floor_ = std::max(highest_floor_, *std::max_element(floors(row), floors(row) + cells_.cols()));
 }

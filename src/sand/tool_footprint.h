@@ -79,8 +79,6 @@ class ToolFootprint {
  private:
   std::size_t at(int row) const { return static_cast<std::size_t>(row) * stride_; }
   void make_room();
-  /// Copies the window's part of a field to `out`, whose rows are `stride` apart.
-  void read(const HeightField& field, double* out) const;
   void read_floors(const HeightField& bed);
 
   BedGeometry bed_{1, 1, 1.0};

@@ -18,16 +18,19 @@ double friction_angle(const Scene& scene) {
 
 double weight_of(const Scene& scene) { return scene.strength.density * gravity; }  // N/m^3
 
-bool has_cohesive_region(const Scene& scene) {
-  return std::any_of(scene.ground.regions.begin(), scene.ground.regions.end(),
-                     [](const SandRegion& region) { return region.cohesion.has_value(); });
+/// The first region with a cohesion of its own, counted from 1; 0: none has.
+int cohesive_region(const Scene& scene) {
+  const std::vector<SandRegion>& regions = scene.ground.regions;
+  for (std::size_t i = 0; i < regions.size(); ++i)
+    if (regions[i].cohesion) return static_cast<int>(i) + 1;
+  return 0;
 }
 
 /// The cohesion over the weight per volume, by place where regions say so.
 Cohesion cohesion_of(const Scene& scene, const BedGeometry& bed, double weight) {
   const double own = scene.moisture->cohesion;
   Cohesion cohesion{own / weight};
-  if (!has_cohesive_region(scene)) return cohesion;
+  if (cohesive_region(scene) == 0) return cohesion;
   const RegionValues values(
       scene.ground.regions, [](const SandRegion& region) { return region.cohesion; }, bed.cell_size());
   auto by_place = std::make_shared<HeightField>(bed.rows(), bed.cols(), bed.cell_size(),
@@ -67,9 +70,11 @@ void describe_moisture(KeyVisitor& v, std::optional<MoistureSettings>& moisture)
 
 void check_moisture(const Scene& scene, const std::string& name) {
   if (!scene.moisture) {
-    if (has_cohesive_region(scene))
-      throw_input_error("{}: a [[sand.region]] has a cohesion, but the scene no [moisture]; add that section",
-                        name);
+    if (const int region = cohesive_region(scene))
+      throw_input_error(
+          "{}: sand.region.{}.cohesion applies only where there is a [moisture]; add that section, or remove "
+          "the key",
+          name, region);
     return;
   }
   if (!scene.plugin_laws.relaxation.empty())

@@ -104,7 +104,7 @@ TEST(CliMoisture, IsRefusedByOneSentence) {
   write_file(folder / "cake.toml", cake + "[moisture]\nheals = false\n");
   refused({}, "moisture.cohesion is missing");
   write_file(folder / "cake.toml", cake + "[[sand.region]]\ncohesion = 100.0\n");
-  refused({}, "no [moisture]; add that section");
+  refused({}, "sand.region.1.cohesion applies only where there is a [moisture]; add that section");
   write_file(folder / "felt.toml", read_file(folder / "scene.toml") +
                                        "[moisture]\ncohesion = 150.0\n[relaxation]\nlaw = \"faces\"\n");
   const ProgramResult felt = run_program({"record", "--check", "--feel", "felt.toml"}, folder);

@@ -111,6 +111,9 @@ TEST(SceneToml, EveryKeyOfTheTableIsReadWithItsDefaultJustWhereItSaysThatItAppli
         }
         if (row.name == "sand.region.1.friction_angle" || row.name == "sand.region.1.density")
           settings.push_back("force.law=rft");
+        if (row.name == "sand.region.1.cohesion") settings.push_back("moisture.cohesion=100");
+        if (row.key() == "cohesion" || row.name.starts_with("moisture."))
+          settings.insert(settings.begin(), "relaxation.law=isotropic");
         if (row.name == "force.blend") settings.insert(settings.begin(), "sand.region=[{k_s = 500}]");
         if (row.name.starts_with("sand.region."))
           settings.insert(settings.begin(), "sand.region=[{talus_angle = 30}]");
@@ -311,8 +314,8 @@ TEST(SceneToml, RefusesStonesAndRegionsThatCannotBeMeant) {
   EXPECT_EQ(said("[sand]\nregoin = 3\n"), "scene.toml:2: unknown key sand.regoin; did you mean sand.region?");
   EXPECT_EQ(
       said("[[sand.region]]\n"),
-      "scene.toml: sand.region.1 says nothing of its sand; give it a talus_angle, friction_angle, density or "
-      "k_s");
+      "scene.toml: sand.region.1 says nothing of its sand; give it a talus_angle, friction_angle, density, "
+      "k_s or cohesion");
   EXPECT_EQ(said(two_stones + "size = [1.0, 1.0, 1.0]\n"),
             "scene.toml:10: stone.2.size applies only where stone.2.shape is ellipsoid or box; remove it, or "
             "change that setting");
