@@ -140,8 +140,8 @@ TEST(CheckGround, ARegionOrLayerMustSayHowItsSandDiffers) {
   Scene scene = small_garden();
   scene.ground.regions.resize(1);
   EXPECT_EQ(complaint(scene),
-            "a.toml: sand.region.1 says nothing of its sand; give it a talus_angle, friction_angle, density "
-            "or k_s");
+            "a.toml: sand.region.1 says nothing of its sand; give it a talus_angle, friction_angle, density, "
+            "k_s or cohesion");
   scene.ground = {};
   scene.ground.layers.push_back({.top = -0.02});
   EXPECT_EQ(complaint(scene),
