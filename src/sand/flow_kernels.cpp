@@ -163,26 +163,21 @@ HWY_INLINE void flow_of(const Factors& factors, const Gain& gain, const TalusLaw
   });
 }
 
-template <class Sand, class Sink>
+/// even: where GroundPatch::has_only() the law's T, if it is worth a kernel of its own.
+template <bool even, class Sand, class Sink>
 HWY_INLINE void flow_on_ground(const TalusLaw& law, const TilePatch& patch, const CellFlags& active,
                                RowSpan rows, const GroundPatch& ground, Sand& sand, Sink& sink,
                                FlowScratch& scratch, TileFlow& flow) {
   scratch.films = {};
-  const bool is_even = ground.has_only(law.axis_drop);
   switch (law.law) {
     case RelaxationLaw::paper:
       return flow_of(PaperOnGround(law, ground), PaperGainOnGround(law, ground), law, patch, active, rows,
                      sand, sink, scratch, flow);
     case RelaxationLaw::isotropic:
-      if (is_even)
-        return flow_of(IsotropicOnGround<true>(law, ground, scratch), GainOf<false>(law), law, patch, active,
-                       rows, sand, sink, scratch, flow);
-      return flow_of(IsotropicOnGround<false>(law, ground, scratch), GainOf<false>(law), law, patch, active,
-                     rows, sand, sink, scratch, flow);
+      return flow_of(IsotropicOnGround(law, ground, scratch), GainOf<false>(law), law, patch, active, rows,
+                     sand, sink, scratch, flow);
     case RelaxationLaw::faces:
-      if (is_even)
-        return face_flow_on_ground<true>(law, patch, active, rows, ground, sand, sink, scratch, flow);
-      return face_flow_on_ground<false>(law, patch, active, rows, ground, sand, sink, scratch, flow);
+      return face_flow_on_ground<even>(law, patch, active, rows, ground, sand, sink, scratch, flow);
   }
 }
 
@@ -251,7 +246,7 @@ void ComputeFlow(const TalusLaw& law, const TilePatch& patch, const CellFlags& a
                  const FlowInStep& in_step, FlowScratch& scratch, TileFlow& flow) {
   const auto compute = [&](auto sand, auto sink) {
     if (in_step.ground)
-      return flow_on_ground(law, patch, active, rows, *in_step.ground, sand, sink, scratch, flow);
+      return flow_on_ground<false>(law, patch, active, rows, *in_step.ground, sand, sink, scratch, flow);
     switch (law.law) {
       case RelaxationLaw::paper:
         return flow_of(PaperFactors(law), GainOf<true>(law), law, patch, active, rows, sand, sink, scratch,
@@ -271,7 +266,10 @@ void ComputeFlow(const TalusLaw& law, const TilePatch& patch, const CellFlags& a
   } else if (in_step.fluxes) {
     SteppedOverFloor sand(*in_step.first, scratch);
     NoGain sink;
-    flow_on_ground(law, patch, active, rows, *in_step.ground, sand, sink, scratch, flow);
+    if (in_step.ground->has_only(law.axis_drop))
+      flow_on_ground<true>(law, patch, active, rows, *in_step.ground, sand, sink, scratch, flow);
+    else
+      flow_on_ground<false>(law, patch, active, rows, *in_step.ground, sand, sink, scratch, flow);
     keep_fluxes(law, patch, flow, scratch, *in_step.fluxes);
     count_flows(*in_step.fluxes, scratch, law, sand, flow);
   } else if (!in_step.ahead) {

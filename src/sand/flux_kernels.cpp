@@ -16,8 +16,6 @@ HWY_BEFORE_NAMESPACE();
 namespace sandstroke {
 namespace HWY_NAMESPACE {
 
-constexpr int side = BedGeometry::tile_side;
-
 /// Calls body(column of a vector's first lane) for the vectors of a row's flagged groups (TileFluxes).
 template <class Body>
 HWY_INLINE void for_wide_vectors(unsigned groups, const Body& body) {

@@ -20,8 +20,8 @@ namespace HWY_NAMESPACE {
 /// Each lower neighbour's drop, or 0.
 HWY_INLINE V falling(V drop) { return where(drop > hn::Zero(d), drop); }
 
-/// T and the sand of the cells in a vector. even: T is the law's in all cells, with the same bits as if each
-/// had its own.
+/// T and the sand of the cells in a vector. even: T is known to be the law's in all cells, with the same bits
+/// as if each had its own.
 template <bool even>
 class LawOnGround {
  public:
@@ -31,6 +31,7 @@ class LawOnGround {
         most_given_(all(law.most_given)),
         half_(all(0.5)),
         one_(all(1.0)),
+        is_even_(ground.has_only(law.axis_drop)),
         ground_(ground) {}
 
   HWY_INLINE const double* axis_drops(int row) const { return ground_.axis_drops.row(row); }
@@ -38,10 +39,7 @@ class LawOnGround {
   HWY_INLINE V between(V here, V there) const { return half_ * (here + there); }
   /// By what a drop to a neighbour is multiplied, so that it may be as large as the law's T.
   HWY_INLINE V weight(V here, V there) const {
-    if constexpr (even)
-      return one_;
-    else
-      return law_drop / between(here, there);
+    return even || is_even_ ? one_ : law_drop / between(here, there);
   }
   /// z [m].
   HWY_INLINE V sand(int row, int c, V height) const {
@@ -54,6 +52,7 @@ class LawOnGround {
 
  private:
   V thinnest_, most_given_, half_, one_;
+  bool is_even_;
   const GroundPatch& ground_;
 };
 
@@ -80,9 +79,8 @@ HWY_INLINE void flag_films(int row, int c, Mask emptied, FlowScratch& scratch) {
     films.own |= flags << c;
 }
 
-template <bool even>
 struct IsotropicOnGround {
-  LawOnGround<even> ground;
+  LawOnGround<false> ground;
   V limit, surely_at_rest, share, one;
   FlowScratch* scratch;  ///< for the films
   IsotropicOnGround(const TalusLaw& law, const GroundPatch& patch, FlowScratch& of_pass)

@@ -20,15 +20,14 @@ namespace HWY_NAMESPACE {
 constexpr int groups = side / group;
 
 /// The largest drops of a group's cells on a ground, as if T were the law's; by `paper`, as parts of T.
-template <bool even>
 Drops drops_on_ground(const TalusLaw& law, const TilePatch& patch, const GroundPatch& patch_ground, int row,
                       int begin) {
-  const LawOnGround<even> ground(law, patch_ground);
+  const LawOnGround<false> ground(law, patch_ground);
   Drops drops;
   for (int c = begin; c < begin + group; c += lanes) {
     if (law.law == RelaxationLaw::faces) {
-      drops.axis = higher(FaceOnGround<even>(ground, patch, row, c, 0).square, drops.axis);
-      drops.axis = higher(FaceOnGround<even>(ground, patch, row, c, 1).square, drops.axis);
+      drops.axis = higher(FaceOnGround<false>(ground, patch, row, c, 0).square, drops.axis);
+      drops.axis = higher(FaceOnGround<false>(ground, patch, row, c, 1).square, drops.axis);
       continue;
     }
     const Around a(patch.heights(row), c);
@@ -49,9 +48,7 @@ void ComputeResiduals(const TalusLaw& law, const TilePatch& patch, const GroundP
     for (unsigned wanted = groups_of(cells[row]); wanted; wanted &= wanted - 1) {
       const int g = std::countr_zero(wanted);
       Drops drops;
-      if (ground)
-        drops = ground->has_only(law.axis_drop) ? drops_on_ground<true>(law, patch, *ground, row, g * group)
-                                                : drops_on_ground<false>(law, patch, *ground, row, g * group);
+      if (ground) drops = drops_on_ground(law, patch, *ground, row, g * group);
       for (int c = g * group; !ground && c < (g + 1) * group; c += lanes) {
         const double* heights = patch.heights(row);
         if (faces) {  // each face counts for one cell
