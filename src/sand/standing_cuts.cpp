@@ -183,8 +183,7 @@ void StandingCuts::know_ranges(const HeightField& bed) {
   for (int tile = 0; tile < bed.tile_count(); ++tile) ranges_[tile].know(bed, tile);
 }
 
-std::vector<StandingCuts::TileToLookAt> StandingCuts::tiles_to_look_at(const HeightField& bed, double least,
-                                                                       bool everywhere) {
+StandingCuts::WhereToLook StandingCuts::where_to_look(const HeightField& bed, double least, bool everywhere) {
   const double safe = factor_.safe_height() * least, per_cell = factor_.friction() * bed.cell_size();
   double low = ranges_[0].whole.low, high = ranges_[0].whole.high;
   std::vector<double> changed(bed.tile_count()), highs(bed.tile_count());
@@ -205,37 +204,41 @@ std::vector<StandingCuts::TileToLookAt> StandingCuts::tiles_to_look_at(const Hei
                                 1.0 * std::max(bed.tile_rows(), bed.tile_cols())));
   const std::vector<double> top_near = greatest_near(bed, highs, reach),
                             changed_near = greatest_near(bed, changed, reach);
-  std::vector<TileToLookAt> tiles;
+  const auto may_fail = [&](int tile) {
+    return changed_near[tile] > 0.0 && top_near[tile] - ranges_[tile].whole.low > safe;
+  };
   CellRange seen;
+  for (int tile = 0; tile < bed.tile_count(); ++tile)
+    if (may_fail(tile)) seen = around(seen, tiles_around(bed, tile, reach));
+  if (seen.empty()) return {};
+  WhereToLook where;
+  where.funnels.emplace(bed, ranges_, seen, factor_.friction());
+  where.highest_floor =
+      bed.ground() ? bed.ground()->floor.highest() : -std::numeric_limits<double>::infinity();
   for (int tile = 0; tile < bed.tile_count(); ++tile) {
-    if (changed_near[tile] == 0.0 || top_near[tile] - ranges_[tile].whole.low <= safe) continue;
-    tiles.push_back({tile, 0, top_near[tile], {}});
-    seen = around(seen, tiles_around(bed, tile, reach));
-  }
-  if (tiles.empty()) return {};
-  funnels_.emplace(bed, ranges_, seen, factor_.friction());
-  highest_floor_ = bed.ground() ? bed.ground()->floor.highest() : -std::numeric_limits<double>::infinity();
-  for (TileToLookAt& one : tiles) {
-    const Funnels::Below below = funnels_->below(bed, one.tile, ranges_[one.tile], safe - spare());
-    one.blocks = below.blocks;
-    const double toe = ranges_[one.tile].whole.low,
-                 longest = longest_run(toe, std::min(one.top - toe, below.most + spare()), one.top, least);
-    const CellRange cells = bed.tile_cells(one.tile);
+    if (!may_fail(tile)) continue;
+    const Funnels::Below below = where.funnels->below(bed, tile, ranges_[tile], safe - spare());
+    if (below.blocks == 0) continue;
+    const double top = top_near[tile], toe = ranges_[tile].whole.low,
+                 above = std::min(top - toe, below.most + spare()),
+                 longest = longest_run(toe, above, top, where.highest_floor, least);
+    CellRange rays;
     for (std::uint64_t left = below.blocks; left; left &= left - 1)
-      one.rays = around(one.rays, cells_of_block(cells, std::countr_zero(left)));
-    one.rays = common(grown(one.rays, static_cast<int>(std::ceil(longest / bed.cell_size())) + beyond),
-                      {0, bed.rows(), 0, bed.cols()});
+      rays = around(rays, cells_of_block(bed.tile_cells(tile), std::countr_zero(left)));
+    rays = common(grown(rays, static_cast<int>(std::ceil(longest / bed.cell_size())) + beyond),
+                  {0, bed.rows(), 0, bed.cols()});
+    where.tiles.push_back({tile, below.blocks, top, rays});
   }
-  std::erase_if(tiles, [](const TileToLookAt& one) { return one.blocks == 0; });
-  return tiles;
+  return where;
 }
 
 StandingCuts::Look StandingCuts::look(HeightField& bed, const Cohesion& cohesion) {
   know_ranges(bed);
   const double least = std::max(0.0, cohesion.least - cohesion.dried), safe = factor_.safe_height() * least,
                mu = factor_.friction();
-  const std::vector<TileToLookAt> tiles =
-      tiles_to_look_at(bed, least, std::exchange(dried_, cohesion.dried) != cohesion.dried);
+  const WhereToLook where =
+      where_to_look(bed, least, std::exchange(dried_, cohesion.dried) != cohesion.dried);
+  const std::vector<TileToLookAt>& tiles = where.tiles;
   if (tiles.empty()) return {};
   std::vector<std::vector<Failure>> found(tiles.size());
   std::vector<std::int64_t> toes(tiles.size(), 0);
@@ -247,25 +250,25 @@ StandingCuts::Look StandingCuts::look(HeightField& bed, const Cohesion& cohesion
     sum += area(one.rays);
   }
   std::optional<Window> shared;
-  if (area(all) <= sum) shared.emplace(bed, level_, cohesion, highest_floor_, all);
+  if (area(all) <= sum) shared.emplace(bed, level_, cohesion, where.highest_floor, all);
   parallel_for(tiles.size(), [&](std::size_t i) {
     const double top = tiles[i].top;
     std::optional<Window> own;
-    if (!shared) own.emplace(bed, level_, cohesion, highest_floor_, tiles[i].rays);
+    if (!shared) own.emplace(bed, level_, cohesion, where.highest_floor, tiles[i].rays);
     const Window& sand = shared ? *shared : *own;
     const auto look_at_cell = [&](int row, int col, double funnel) {
       const double toe = sand.height(row, col), above = std::min(top - toe, funnel - toe + spare());
       if (above <= safe || !is_toe(sand, row, col, mu) || bed.is_wall(row, col)) return;
       ++toes[i];
       const Uphill uphill = uphill_of(sand, row, col, mu);
-      const Wedge wedge =
-          worst_wedge(sand, row, col, uphill, factor_, longest_run(toe, above, top, least), 1.0);
+      const double longest = longest_run(toe, above, top, where.highest_floor, least);
+      const Wedge wedge = worst_wedge(sand, row, col, uphill, factor_, longest, 1.0);
       if (wedge.need > 1.0) found[i].push_back({row, col, toe, uphill, wedge});
     };
     for (std::uint64_t left = tiles[i].blocks; left; left &= left - 1) {
       const CellRange cells = cells_of_block(bed.tile_cells(tiles[i].tile), std::countr_zero(left));
       const double funnel =
-          funnels_->level(cells.row_begin / BlockRanges::block, cells.col_begin / BlockRanges::block);
+          where.funnels->level(cells.row_begin / BlockRanges::block, cells.col_begin / BlockRanges::block);
       for (int row = cells.row_begin; row < cells.row_end; ++row)
         for (int col = cells.col_begin; col < cells.col_end; ++col) look_at_cell(row, col, funnel);
     }
@@ -317,11 +320,8 @@ void StandingCuts::lower(const HeightField& bed, const HeightField& before,
     const CellRange cells = bed.tile_cells(tile);
     const CellRange wide = common(grown(cells, rim), {0, bed.rows(), 0, bed.cols()});
     HeightGrid then(wide.rows(), wide.cols()), now(wide.rows(), wide.cols());
-    for (int row = 0; row < wide.rows(); ++row)
-      for (int col = 0; col < wide.cols(); ++col) {
-        then(row, col) = before(wide.row_begin + row, wide.col_begin + col);
-        now(row, col) = level_(wide.row_begin + row, wide.col_begin + col);
-      }
+    before.read_cells(wide, then.data(), wide.cols());
+    level_.read_cells(wide, now.data(), wide.cols());
     open_level(then, now);
     opened.emplace_back(cells, now.block(cells.row_begin - wide.row_begin, cells.col_begin - wide.col_begin,
                                          cells.rows(), cells.cols()));

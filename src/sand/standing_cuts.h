@@ -78,13 +78,18 @@ class StandingCuts {
     double top;            // m: no sand that its rays may come to is higher
     CellRange rays;        // the cells that they may come to
   };
+  struct WhereToLook {
+    std::vector<TileToLookAt> tiles = {};
+    std::optional<Funnels> funnels = {};  // if there are tiles
+    double highest_floor = 0.0;           // m
+  };
   /// least: of the cohesion over the weight per volume [m].
-  std::vector<TileToLookAt> tiles_to_look_at(const HeightField& bed, double least, bool everywhere);
+  WhereToLook where_to_look(const HeightField& bed, double least, bool everywhere);
   /// The run [m] beyond which no wedge of a toe fails. above, top [m]: as in CohesionFactor::longest_run,
   /// that is, with no floor above the toe.
-  double longest_run(double toe, double above, double top, double least) const {
-    return highest_floor_ > toe ? (top - toe) / factor_.friction()
-                                : factor_.longest_run(above, top - toe, least);
+  double longest_run(double toe, double above, double top, double highest_floor, double least) const {
+    return highest_floor > toe ? (top - toe) / factor_.friction()
+                               : factor_.longest_run(above, top - toe, least);
   }
   /// before: the level as it is.
   void lower(const HeightField& bed, const HeightField& before, const std::vector<Failure>& failures);
@@ -98,9 +103,6 @@ class StandingCuts {
   std::vector<int> dry_tiles_;         // by index, that have dry sand beside moist sand
   double dry_since_ = -1.0;            // m, dried when they were found; below 0: never
   double dried_ = 0.0;                 // m, in the last look
-  // Of the last look:
-  std::optional<Funnels> funnels_;
-  double highest_floor_ = 0.0;  // m
 };
 
 }  // namespace sandstroke
