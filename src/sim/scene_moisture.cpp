@@ -85,8 +85,7 @@ void check_moisture(const Scene& scene, const std::string& name) {
   if (scene.relaxation.law == RelaxationLaw::paper)
     throw_input_error(
         "{}: [moisture] does not go with relaxation.law = \"paper\", which knows no floor in super-steps; "
-        "take "
-        "\"isotropic\" or \"faces\", or model.preset = \"accurate\"",
+        "take \"isotropic\" or \"faces\", or model.preset = \"accurate\"",
         name);
   if (!friction_angles.contains(friction_angle(scene)))
     throw_input_error(
@@ -95,9 +94,8 @@ void check_moisture(const Scene& scene, const std::string& name) {
         friction_angles.lowest, friction_angles.highest);
   if (scene.moisture->dries > 0.0 && scene.only_relaxes())
     throw_input_error(
-        "{}: moisture.dries needs time, and none passes in a scene without [stroke] and [[source]]; add one, "
-        "or "
-        "set a lower moisture.cohesion",
+        "{}: moisture.dries needs time, and none passes in a scene without [stroke] and [[source]]; add "
+        "one, or set a lower moisture.cohesion",
         name);
 }
 
@@ -118,10 +116,9 @@ std::string coarse_moisture_warning(const Scene& scene) {
                cells = height / scene.bed.cell_size(), error = 0.51 / cells;
   if (error <= most_error) return "";
   return fmt::format(
-      "a vertical cut of this moist sand stands {:.3g} mm high, which are {:.2g} cells: it stands up to "
-      "{:.0f} % "
-      "too high, and with one cell or less the sand lies as if dry; take cells of {:.2g} mm, or more "
-      "moisture.cohesion",
+      "a vertical cut of this moist sand stands {:.3g} mm high, which are {:.2g} cells: it stands up "
+      "to {:.0f} % too high, and with one cell or less the sand lies as if dry; take cells of {:.2g} mm, "
+      "or more moisture.cohesion",
       1e3 * height, cells, 100.0 * error, 1e3 * height * most_error / 0.51);
 }
 

@@ -77,11 +77,10 @@ Problem cut_problem(const ProblemOptions& options) {
 }
 
 Problem wall_problem(const ProblemOptions& options) {
-  Problem problem =
-      shape_problem("wall", "A wall of moist sand that fails",
-                    "A vertical wall that is 5 % too high loses the wedge above a plane of 45 degrees and "
-                    "half the friction "
-                    "angle; the truth is that plane, with the wedge's sand before it at the talus.");
+  Problem problem = shape_problem(
+      "wall", "A wall of moist sand that fails",
+      "A vertical wall that is 5 % too high loses the wedge above a plane of 45 degrees and half "
+      "the friction angle; the truth is that plane, with the wedge's sand before it at the talus.");
   for (const RelaxationLaw law : {RelaxationLaw::isotropic, RelaxationLaw::faces})
     for (const int cells : {48, 96, 192, 384}) {
       if (options.quick && cells > 192) continue;
