@@ -102,11 +102,7 @@ std::vector<double> greatest_near(const HeightField& bed, const std::vector<doub
 }  // namespace
 
 StandingCuts::StandingCuts(const HeightField& bed, const CohesionFactor& factor)
-    : factor_(factor),
-      level_(bed),
-      ranges_(bed.tile_count()),
-      seen_(bed.tile_count(), never),
-      healed_(bed.tile_count(), 0) {
+    : factor_(factor), level_(bed), ranges_(bed.tile_count()), seen_(bed.tile_count(), never) {
   level_.lie_on(nullptr);
   level_.clear_disturbed();
 }
@@ -168,14 +164,11 @@ void StandingCuts::cut_tile(const HeightField& bed, int slot, const CellFlags& f
     }
 }
 
-void StandingCuts::heal(const HeightField& bed) {
-  for (int slot = 0; slot < bed.allocated_tiles(); ++slot) {
-    const int tile = bed.tile_of(slot);
-    const std::uint64_t revision = bed.tile_revision(tile);
-    if (std::exchange(healed_[tile], revision) != revision) seen_[tile] = never;  // its faces are other ones
-  }
+void StandingCuts::heal(HeightField& bed, const Cohesion& cohesion) {
+  if (!cohesion.by_place && is_dry(cohesion.least - cohesion.dried)) return;
   level_ = bed;
   level_.lie_on(nullptr);
+  if (cohesion.by_place) free_dry_sand(bed, cohesion);
   level_.clear_disturbed();
 }
 
@@ -338,7 +331,6 @@ void StandingCuts::lower(const HeightField& bed, const HeightField& before,
 void StandingCuts::visit_state(StateVisitor& state) {
   level_.visit_state(state);
   state.row("standing.seen", seen_);
-  state.row("standing.healed", healed_);
   state.value("standing.dried", dried_);
   state.value("standing.dry_since", dry_since_);
   state.list("standing.dry_tiles", dry_tiles_);

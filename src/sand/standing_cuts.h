@@ -40,8 +40,8 @@ class StandingCuts {
   /// Lowers the level to the sand where that was set (HeightField::disturbed_tiles), and under all sand where
   /// the cohesion is as good as none. What was intact there until now may flow: it is marked as disturbed.
   void cut(HeightField& bed, const Cohesion& cohesion);
-  /// The sand as it lies is intact.
-  void heal(const HeightField& bed);
+  /// The sand as it lies is intact, but where the cohesion is as good as none.
+  void heal(HeightField& bed, const Cohesion& cohesion);
   /// The level is that of another bed's, but nowhere above this one's sand.
   void take_over(const StandingCuts& other, const HeightField& bed);
 
@@ -97,12 +97,11 @@ class StandingCuts {
   CohesionFactor factor_;
   HeightField level_;
   static constexpr std::uint64_t never = BlockRanges::never;
-  std::vector<BlockRanges> ranges_;    // by tile
-  std::vector<std::uint64_t> seen_;    // by tile: the bed's revision in the last look; never: look again
-  std::vector<std::uint64_t> healed_;  // by tile: the bed's revision when it healed
-  std::vector<int> dry_tiles_;         // by index, that have dry sand beside moist sand
-  double dry_since_ = -1.0;            // m, dried when they were found; below 0: never
-  double dried_ = 0.0;                 // m, in the last look
+  std::vector<BlockRanges> ranges_;  // by tile
+  std::vector<std::uint64_t> seen_;  // by tile: the bed's revision in the last look; never: look again
+  std::vector<int> dry_tiles_;       // by index, that have dry sand beside moist sand
+  double dry_since_ = -1.0;          // m, dried when they were found; below 0: never
+  double dried_ = 0.0;               // m, in the last look
 };
 
 }  // namespace sandstroke

@@ -46,16 +46,17 @@ class StandingRelaxer : public Relaxer {
   RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
     RelaxationOutcome outcome;
     cuts_.cut(bed, sand_.cohesion);
-    while (true) {
-      outcome.add(flow(bed, outcome.passes, after_pass));
-      if (!outcome.converged || interrupted()) break;
+    for (bool has_failed = false;; has_failed = true) {
+      const RelaxationOutcome flowed = flow(bed, outcome.passes, after_pass);
+      outcome.add(flowed);
+      // What fails at a slope at which loose sand may lie stays there.
+      if (!flowed.converged || interrupted() || (has_failed && flowed.passes == 0)) break;
+      // Sand that has bonded makes new faces: they are looked at, too, so that what stands is left alone.
+      if (sand_.heals) cuts_.heal(bed, sand_.cohesion);
       const StandingCuts::Look look = cuts_.look(bed, sand_.cohesion);
       outcome.failed_volume += look.volume;
       if (look.failed == 0) break;
     }
-    const bool is_moist =
-        sand_.cohesion.by_place || !cuts_.is_dry(sand_.cohesion.least - sand_.cohesion.dried);
-    if (sand_.heals && outcome.converged && is_moist) cuts_.heal(bed);
     return outcome;
   }
 

@@ -210,6 +210,12 @@ TEST(StandingSand, HostileBedsEndWithAllTheirSand) {
         EXPECT_TRUE(outcome.converged) << seed << " " << most << " " << block;
         EXPECT_NEAR(bed.volume() / volume, 1.0, 1e-14);
         EXPECT_TRUE(std::isfinite(bed.volume()));
+        // What stands is left alone.
+        const HeightGrid stood = bed.grid();
+        const RelaxationOutcome again = relaxer->relax(bed);
+        EXPECT_EQ(again.passes, 0) << seed << " " << most << " " << block;
+        EXPECT_EQ(again.failed_volume, 0.0);
+        EXPECT_TRUE((bed.grid() == stood).all());
       }
 }
 
