@@ -1,6 +1,7 @@
 #include "sim/scene_moisture.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/error.h"
 #include "rules/force.h"
@@ -16,7 +17,12 @@ double friction_angle(const Scene& scene) {
   return own > 0.0 ? own : scene.relaxation.talus_angle;
 }
 
-double weight_of(const Scene& scene) { return scene.strength.density * gravity; }  // N/m^3
+/// The cohesion over the weight per volume [m]. region: null for the scene's own sand.
+double cohesion_over_weight(const Scene& scene, const SandRegion* region) {
+  const double own = scene.moisture->cohesion, density = scene.strength.density;
+  return (region ? region->cohesion.value_or(own) : own) /
+         ((region ? region->density.value_or(density) : density) * gravity);
+}
 
 /// The first region with a cohesion of its own, counted from 1; 0: none has.
 int cohesive_region(const Scene& scene) {
@@ -26,21 +32,27 @@ int cohesive_region(const Scene& scene) {
   return 0;
 }
 
-/// The cohesion over the weight per volume, by place where regions say so.
-Cohesion cohesion_of(const Scene& scene, const BedGeometry& bed, double weight) {
-  const double own = scene.moisture->cohesion;
-  Cohesion cohesion{own / weight};
-  if (cohesive_region(scene) == 0) return cohesion;
-  const RegionValues values(
-      scene.ground.regions, [](const SandRegion& region) { return region.cohesion; }, bed.cell_size());
+/// The cohesion over the weight per volume, by place where regions have their own of either.
+Cohesion cohesion_of(const Scene& scene, const BedGeometry& bed) {
+  const double own = cohesion_over_weight(scene, nullptr), cohesion_there = scene.moisture->cohesion,
+               density_there = scene.strength.density;
+  Cohesion cohesion{own};
+  const auto values_of = [&](const RegionValues::ValueOf& value_of) {
+    return RegionValues(scene.ground.regions, value_of, bed.cell_size());
+  };
+  const RegionValues cohesions = values_of([](const SandRegion& region) { return region.cohesion; });
+  const RegionValues densities = values_of([](const SandRegion& region) { return region.density; });
+  if (cohesions.empty() && densities.empty()) return cohesion;
   auto by_place = std::make_shared<HeightField>(bed.rows(), bed.cols(), bed.cell_size(),
-                                                std::make_shared<LevelRule>(own / weight));
+                                                std::make_shared<LevelRule>(own));
   for (int row = 0; row < bed.rows(); ++row)
     for (int col = 0; col < bed.cols(); ++col) {
-      const double there = values.at({bed.x_of(col), bed.y_of(row)}, own);
+      const Eigen::Vector2d place(bed.x_of(col), bed.y_of(row));
+      const double there =
+          cohesions.at(place, cohesion_there) / (densities.at(place, density_there) * gravity);
       if (there == own) continue;
-      by_place->set(row, col, there / weight);
-      cohesion.least = std::min(cohesion.least, there / weight);
+      by_place->set(row, col, there);
+      cohesion.least = std::min(cohesion.least, there);
     }
   cohesion.by_place = std::move(by_place);
   return cohesion;
@@ -107,31 +119,42 @@ bool is_moist(const Scene& scene) {
                      [](const auto& region) { return region.cohesion.value_or(0.0) > 0.0; });
 }
 
+double slope_of_crumbs(const Scene& scene) {
+  return is_moist(scene) ? talus_slope(scene.relaxation.talus_angle) : 0.0;
+}
+
 std::string coarse_moisture_warning(const Scene& scene) {
-  if (!scene.moisture || scene.moisture->cohesion == 0.0) return "";
+  if (!is_moist(scene)) return "";
   const MoistureSettings& moisture = *scene.moisture;
+  // Of the sand whose cuts stand lowest.
+  double least = std::numeric_limits<double>::infinity();
+  std::string key = "moisture.cohesion";
+  if (moisture.cohesion > 0.0) least = cohesion_over_weight(scene, nullptr);
+  for (std::size_t i = 0; i < scene.ground.regions.size(); ++i) {
+    const double there = cohesion_over_weight(scene, &scene.ground.regions[i]);
+    if (!(there > 0.0 && there < least)) continue;
+    least = there;
+    if (scene.ground.regions[i].cohesion) key = fmt::format("sand.region.{}.cohesion", i + 1);
+  }
   constexpr double most_error = 0.05;  // of the height; 0.51 over its cells is the error of a cut
-  const double height = critical_height(moisture.surface, 90.0, friction_angle(scene)) * moisture.cohesion /
-                        weight_of(scene),
+  const double height = critical_height(moisture.surface, 90.0, friction_angle(scene)) * least,
                cells = height / scene.bed.cell_size(), error = 0.51 / cells;
   if (error <= most_error) return "";
   return fmt::format(
       "a vertical cut of this moist sand stands {:.3g} mm high, which are {:.2g} cells: it stands up "
       "to {:.0f} % too high, and with one cell or less the sand lies as if dry; take cells of {:.2g} mm, "
-      "or more moisture.cohesion",
-      1e3 * height, cells, 100.0 * error, 1e3 * height * most_error / 0.51);
+      "or more {}",
+      1e3 * height, cells, 100.0 * error, 1e3 * height * most_error / 0.51, key);
 }
 
 std::unique_ptr<Relaxer> make_relaxer(const Scene& scene, const HeightField& bed) {
   std::unique_ptr<Relaxer> flow = make_relaxer(scene, bed.cell_size());
   if (!is_moist(scene)) return flow;
-  const double weight = weight_of(scene);
-  const Cohesion cohesion = cohesion_of(scene, bed, weight);
   const MoistureSettings& moisture = *scene.moisture;
-  return make_standing_relaxer(
-      std::move(flow), bed,
-      {CohesionFactor(moisture.surface, friction_angle(scene)), cohesion, moisture.dries / weight,
-       moisture.heals, talus_slope(scene.relaxation.talus_angle)});
+  return make_standing_relaxer(std::move(flow), bed,
+                               {CohesionFactor(moisture.surface, friction_angle(scene)),
+                                cohesion_of(scene, bed), moisture.dries / (scene.strength.density * gravity),
+                                moisture.heals, talus_slope(scene.relaxation.talus_angle)});
 }
 
 }  // namespace sandstroke

@@ -113,6 +113,35 @@ TEST(CliMoisture, IsRefusedByOneSentence) {
       << felt.err;
 }
 
+TEST(CliMoisture, RegionsHaveAWeightOfTheirOwn) {
+  const fs::path folder = test_folder();
+  const auto fails = [&](double density) {
+    write_file(folder / "cake.toml",
+               cake +
+                   "[moisture]\ncohesion = 150.0\n[[sand.region]]\ncentre = [0.0, 0.25]\n"
+                   "size = [0.5, 0.5]\ndensity = " +
+                   std::to_string(density) + "\n");
+    const ProgramResult run = run_program({"run", "cake.toml", "-o", "a.h5"}, folder);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const RunFile file(folder / "a.h5");
+    EXPECT_TRUE((file.final().topRows(30) == file.initial().topRows(30)).all());  // y < 0: as light as ever
+    return !(file.final() == file.initial()).all();
+  };
+  EXPECT_FALSE(fails(1600.0));
+  EXPECT_TRUE(fails(2400.0));  // as with two thirds of the cohesion
+}
+
+TEST(CliMoisture, SaysThatCellsAreTooLargeForARegion) {
+  const fs::path folder = test_folder();
+  write_file(folder / "cake.toml", cake +
+                                       "[moisture]\ncohesion = 0.0\n[[sand.region]]\ncentre = [0.0, 0.25]\n"
+                                       "size = [0.5, 0.5]\ncohesion = 30.0\n");
+  const ProgramResult run = run_program({"run", "cake.toml", "-o", "a.h5"}, folder);
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_NE(run.err.find("6.6 cells"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("or more sand.region.1.cohesion"), std::string::npos) << run.err;
+}
+
 TEST(CliMoisture, RegionsHaveACohesionOfTheirOwn) {
   const fs::path folder = test_folder();
   write_file(folder / "cake.toml", cake +
