@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "io/run_file.h"
 #include "render/change_picture.h"
+#include "sim/scene_moisture.h"
 #include "tool/tool_surface.h"
 
 namespace sandstroke {
@@ -17,6 +18,7 @@ RunPainter::RunPainter(const RunFile& run, const ViewSettings& view, double cont
   const CellRange stroke = view.name == ViewName::stroke ? stroke_cells() : CellRange{};
   subject_ = subject_of_change(initial_, last_surface(run).surface, stroke, view, contour_interval);
   subject_.shape = scene_.bed.shape;
+  subject_.crumbs = slope_of_crumbs(scene_);
 }
 
 /// The cells where the hand took the tool below the starting surface. Empty without a trace.

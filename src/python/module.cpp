@@ -22,6 +22,7 @@
 #include "python/plugin_laws.h"
 #include "render/height_field_renderer.h"
 #include "sand/ground.h"
+#include "sim/scene_moisture.h"
 #include "tool/tool_surface.h"
 
 // The extension module on which src/python/sandstroke builds its functions. Names with a _ are not for users.
@@ -118,6 +119,7 @@ py::array picture(const SceneHere& here, const py::object& heights, const py::ob
     const WithoutLock let_go;
     RenderSubject subject;
     subject.view = scene.view;
+    subject.crumbs = slope_of_crumbs(scene);
     const double cell_size = scene.bed.width / static_cast<double>(shown.cols());
     subject.start = start_heights(HeightField(before, cell_size));
     HeightGrid change;

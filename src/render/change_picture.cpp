@@ -27,13 +27,14 @@ RenderSubject subject_of_change(const HeightField& initial, const HeightField& l
 }
 
 Image ChangePainter::draw(const HeightField& initial, const HeightField& last, const CellRange& stroke,
-                          const ViewSettings& view) {
+                          const ViewSettings& view, double crumbs) {
   if (!renderer_ || !bed_->same_grid(last)) {
     renderer_.reset();  // before the next is made: two take twice the memory
     bed_ = last;
     renderer_ = std::make_unique<HeightFieldRenderer>(last.rows(), last.cols(), last.cell_size());
   }
   RenderSubject subject = subject_of_change(initial, last, stroke, view);
+  subject.crumbs = crumbs;
   HeightGrid difference;
   if (view.style == RenderStyle::difference) difference = last.grid() - initial.grid();
   subject.difference = &difference;

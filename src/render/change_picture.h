@@ -17,9 +17,9 @@ RenderSubject subject_of_change(const HeightField& initial, const HeightField& l
 /// once. For one thread.
 class ChangePainter {
  public:
-  /// Error: input, io, as HeightFieldRenderer.
+  /// crumbs: as in RenderSubject. Error: input, io, as HeightFieldRenderer.
   Image draw(const HeightField& initial, const HeightField& last, const CellRange& stroke,
-             const ViewSettings& view);
+             const ViewSettings& view, double crumbs);
 
  private:
   std::unique_ptr<HeightFieldRenderer> renderer_;

@@ -251,6 +251,7 @@ void HeightFieldRenderer::Drawing::draw_sand(const RenderSubject& subject, const
   const ShaderProgram& sand = sand_program();
   set_light(sand, camera, sun);
   set_tool(sand, subject.tool.value_or(ToolBody{Eigen::Vector3d::Zero(), 0.0}));
+  sand.set("crumbs", subject.crumbs);
   draw_tiles(sand, camera, subject.tile_levels);
 }
 
@@ -329,6 +330,7 @@ Image HeightFieldRenderer::Drawing::render(const HeightField& surface, const Ren
                    wall_radius_,
                    view.style,
                    subject.box,
+                   subject.crumbs,
                    subject.background,
                    subject.tile_levels,
                    subject.tool,

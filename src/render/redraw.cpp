@@ -14,7 +14,7 @@ bool same_but_tool(const PictureState& a, const PictureState& b) {
   return a.camera.to_clip == b.camera.to_clip && a.camera.eye == b.camera.eye &&
          a.camera.forward == b.camera.forward && a.camera.orthographic == b.camera.orthographic &&
          a.camera.scale == b.camera.scale && a.sun == b.sun && a.start == b.start &&
-         a.wall_radius == b.wall_radius && a.style == b.style && a.box == b.box &&
+         a.wall_radius == b.wall_radius && a.style == b.style && a.box == b.box && a.crumbs == b.crumbs &&
          a.background == b.background && a.tile_levels == b.tile_levels && a.ground == b.ground;
 }
 

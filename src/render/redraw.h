@@ -13,6 +13,7 @@ struct PictureState {
   double wall_radius = 0.0;  ///< m, of a round bed; 0: the bed is not round
   RenderStyle style = RenderStyle::sand;
   bool box = true;
+  double crumbs = 0.0;
   std::optional<std::array<double, 3>> background;
   std::vector<int> tile_levels;
   std::optional<ToolBody> tool;

@@ -48,6 +48,7 @@ struct RenderSubject {
   std::optional<BedShape> shape;           ///< else that of the surface itself
   double contour_interval = 0.0;           ///< m; 0 = a round one that gives about a dozen lines
   bool box = true;                         ///< the wall around the bed
+  double crumbs = 0.0;  ///< the slope (rise over run) at which moist sand lies in crumbs; 0: it is dry
   std::optional<std::array<double, 3>> background;  ///< sRGB in [0, 1], instead of the sky
   std::vector<int> tile_levels;  ///< level of detail of each tile; empty = by its size in the picture
 };

@@ -118,6 +118,7 @@ std::string sand_fragment(bool on_floor) {
          "const float tool_reach = " + std::to_string(tool_reach) + R"(;
 uniform vec4 tool;           // centre and radius; radius 0 = none
 uniform float widest_pixel;  // m, of this tile
+uniform float crumbs;        // the slope at which moist sand lies in crumbs; 0: it is dry
 out vec4 colour;
 
 // Grains and patches: octaves of noise. Each fades out before a pixel covers half a wave, so nothing shimmers.
@@ -135,6 +136,21 @@ vec3 grain(vec2 position, float pixel) {
     vec3 n = gradient_noise(frame * position / waves[i], uint(i));
     float weight = 1.0 - smoothstep(0.25, 0.5, pixel / waves[i]);
     sum += weight * vec3(albedo[i] * n.x, relief[i] * (n.yz * frame));
+  }
+  return sum;
+}
+
+// Lumps of moist sand that came down, smaller ones between large ones. As grain().
+vec3 crumb(vec2 position, float pixel) {
+  const float waves[3] = float[3](0.0013, 0.0027, 0.0058);
+  const mat2 turn = mat2(0.6, -0.8, 0.8, 0.6);
+  vec3 sum = vec3(0.0);
+  mat2 frame = mat2(1.0);
+  for (int i = 2; i >= 0 && pixel < 0.5 * waves[i]; --i) {
+    frame = turn * frame;
+    vec3 n = gradient_noise(frame * position / waves[i], uint(60 + i));
+    float lump = smoothstep(0.0, 0.35, n.x), weight = 1.0 - smoothstep(0.25, 0.5, pixel / waves[i]);
+    sum += weight * vec3(0.16 * (lump - 0.5), 0.24 * step(0.0, n.x) * (n.yz * frame));
   }
   return sum;
 }
@@ -174,6 +190,12 @@ void main() {
   float steep = 1.0 - smoothstep(0.5, 0.7, ground.z);
   vec2 uphill = -steep * ground.xy / max(length(ground.xy), 1e-6);
   vec3 grains = grain(world.xy + world.z * uphill, mix(pixel, footprint, steep));
+  if (crumbs > 0.0) {
+    float part = length(here.xy) / crumbs, loose = smoothstep(0.75, 0.95, part) - smoothstep(1.1, 1.4, part);
+    vec3 triangle = normalize(cross(dFdx(world), dFdy(world)));
+    loose *= smoothstep(0.1, 0.3, abs(triangle.z));   // none on the upright skirt at the bed's border
+    if (loose > 0.0) grains += loose * crumb(world.xy, pixel);
+  }
 #ifdef ON_FLOOR
   vec2 bare_here = bare_parts(min(pixel, widest_pixel), steep);
   float sand_here = 1.0 - bare_here.x - bare_here.y;

@@ -20,6 +20,9 @@ void check_moisture(const Scene& scene, const std::string& name);
 /// Whether any of its sand has a cohesion.
 bool is_moist(const Scene& scene);
 
+/// The slope (rise over run) at which moist sand that has come down lies in crumbs; 0: the sand is dry.
+double slope_of_crumbs(const Scene& scene);
+
 /// "" or what a run's user should know: so few cells resolve the height of a cut that stands that it stands
 /// too high, or not at all.
 std::string coarse_moisture_warning(const Scene& scene);

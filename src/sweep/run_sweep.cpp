@@ -26,6 +26,7 @@
 #include "io/scene_toml.h"
 #include "measure/stroke_depth.h"
 #include "sim/check_sources.h"
+#include "sim/scene_moisture.h"
 #include "sim/tool_fit.h"
 #include "sweep/point_runner.h"
 #include "tool/tool_surface.h"
@@ -259,7 +260,8 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
     if (surface && plan_.keep_picture) {
       if (const std::string view = view_text(scenes[i]); !picture || view != pictured_view) {
         picture =
-            painter.draw(*bed, result->surface, stroke_cells(scenes[i], *bed, stroke.get()), scenes[i].view);
+            painter.draw(*bed, result->surface, stroke_cells(scenes[i], *bed, stroke.get()), scenes[i].view,
+                         slope_of_crumbs(scenes[i]));
         pictured_view = view;
       }
       write_png(folder.picture_file(points[i]), *picture);
