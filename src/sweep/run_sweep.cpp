@@ -259,9 +259,8 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
     const bool surface = !failed(result->points[i].verdict);
     if (surface && plan_.keep_picture) {
       if (const std::string view = view_text(scenes[i]); !picture || view != pictured_view) {
-        picture =
-            painter.draw(*bed, result->surface, stroke_cells(scenes[i], *bed, stroke.get()), scenes[i].view,
-                         slope_of_crumbs(scenes[i]));
+        picture = painter.draw(*bed, result->surface, stroke_cells(scenes[i], *bed, stroke.get()),
+                               scenes[i].view, slope_of_crumbs(scenes[i]));
         pictured_view = view;
       }
       write_png(folder.picture_file(points[i]), *picture);
