@@ -168,9 +168,10 @@ void check_strengths(const Scene& scene, const std::string& name) {
   };
   constexpr const char *by_paper = "force.law = \"paper\"",
                        *by_contact = "force.law = \"rft\" or \"archimedes\"";
-  const auto check_both = [&](const std::string& table, const auto& sand) {
+  // weighs: where something else but the force knows the density, too.
+  const auto check_both = [&](const std::string& table, const auto& sand, bool weighs) {
     check(table, "friction_angle", sand.friction_angle, contact, by_contact);
-    check(table, "density", sand.density, contact, by_contact);
+    check(table, "density", sand.density, contact || weighs, by_contact);
   };
   const GroundSettings& ground = scene.ground;
   if (scene.strength.blend > 0.0 && !(paper ? ground.has_k_s() : contact && ground.has_strengths()))
@@ -184,11 +185,11 @@ void check_strengths(const Scene& scene, const std::string& name) {
                       name, scene.strength.blend, least_blend);
   for (std::size_t i = 0; i < ground.regions.size(); ++i) {
     const std::string table = fmt::format("sand.region.{}", i + 1);
-    check_both(table, ground.regions[i]);
+    check_both(table, ground.regions[i], scene.moisture.has_value());
     check(table, "k_s", ground.regions[i].k_s, paper, by_paper);
   }
   for (std::size_t i = 0; i < ground.layers.size(); ++i)
-    check_both(fmt::format("sand.layer.{}", i + 1), ground.layers[i]);
+    check_both(fmt::format("sand.layer.{}", i + 1), ground.layers[i], false);
 }
 
 }  // namespace

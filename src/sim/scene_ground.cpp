@@ -31,7 +31,7 @@ void describe_region(KeyVisitor& v, SandRegion& region) {
   show_if_given(v, "friction_angle", region.friction_angle, friction_angles, "deg",
                 "its sand's internal friction, instead of force.friction_angle");
   show_if_given(v, "density", region.density, positive, "kg/m^3",
-                "its sand's bulk density under the tool, instead of force.density");
+                "its sand's bulk density, instead of force.density: under the tool, and of moist sand");
   show_if_given(v, "k_s", region.k_s, not_negative, "N", "instead of force.k_s");
   show_if_given(v, "cohesion", region.cohesion, {0.0, most_cohesion, false}, "Pa",
                 "instead of moisture.cohesion");
