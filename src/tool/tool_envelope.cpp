@@ -9,6 +9,7 @@
 #include "core/elementary.h"
 #include "core/error.h"
 #include "tool/distance_transform.h"
+#include "tool/triangle_samples.h"
 
 namespace sandstroke {
 namespace {
@@ -19,8 +20,6 @@ using Eigen::Vector3d;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double most_samples = 1.6e7;  // 130 MB per field
 constexpr double most_distance = 1.4;   // the largest displacement.distance
-
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 }  // namespace
 
@@ -78,25 +77,11 @@ void ToolEnvelope::rasterise(const TriangleMesh& surface) {
 
 /// Lowers the samples over a triangle, its edges included, to its height if that is lower.
 void ToolEnvelope::draw_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  const double per_metre = phases_ / cell_size_;
-  const auto in_samples = [&](const Vector3d& p) { return Vector2d(per_metre * p.x(), per_metre * p.y()); };
-  const Vector2d A = in_samples(a), B = in_samples(b), C = in_samples(c);
-  const double area = cross(B - A, C - A);
-  if (std::abs(area) < 1e-9) return;  // upright: its neighbours cover its edges
-  const double slack = -1e-9 * std::abs(area), low_z = std::min({a.z(), b.z(), c.z()}),
-               high_z = std::max({a.z(), b.z(), c.z()});
-  const Vector2d low = A.cwiseMin(B).cwiseMin(C), high = A.cwiseMax(B).cwiseMax(C);
   const int origin_x = first_col_ * phases_, origin_y = first_row_ * phases_;
-  for (int y = static_cast<int>(std::ceil(low.y() - 1e-9)); y <= std::floor(high.y() + 1e-9); ++y)
-    for (int x = static_cast<int>(std::ceil(low.x() - 1e-9)); x <= std::floor(high.x() + 1e-9); ++x) {
-      const Vector2d P(x, y);
-      const double u = cross(C - B, P - B), v = cross(A - C, P - C), w = cross(B - A, P - A);
-      const double sign = area > 0.0 ? 1.0 : -1.0;
-      if (sign * u < slack || sign * v < slack || sign * w < slack) continue;
-      const double z = std::clamp((u * a.z() + v * b.z() + w * c.z()) / area, low_z, high_z);
-      double& height = underside_[at_sample(y - origin_y, x - origin_x)];
-      height = std::min(height, z);
-    }
+  visit_triangle_samples(a, b, c, phases_ / cell_size_, [&](int x, int y, double z) {
+    double& height = underside_[at_sample(y - origin_y, x - origin_x)];
+    height = std::min(height, z);
+  });
 }
 
 /// Gives the samples just beyond the edge a height, since heights are interpolated between a covered sample

@@ -1,6 +1,8 @@
 #include "tool/tool_surface.h"
 
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <utility>
 
@@ -119,6 +121,62 @@ void add_upright_box(TriangleMesh& mesh, double along_x, double along_y, double 
   add_box(mesh, {-0.5 * along_x, -0.5 * along_y, 0.0}, {0.5 * along_x, 0.5 * along_y, height});
 }
 
+/// Adds the surface of some blocks of a grid, whose planes are at xs, ys and zs: those where is_solid(i, j,
+/// k).
+template <class IsSolid>
+void add_blocks(TriangleMesh& mesh, const std::vector<double>& xs, const std::vector<double>& ys,
+                const std::vector<double>& zs, const IsSolid& is_solid) {
+  const std::array<const std::vector<double>*, 3> planes = {&xs, &ys, &zs};
+  using Index = std::array<int, 3>;
+  const auto solid = [&](const Index& at) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (at[axis] < 0 || at[axis] + 1 >= static_cast<int>(planes[axis]->size())) return false;
+    return is_solid(at[0], at[1], at[2]);
+  };
+  std::map<Index, std::int32_t> vertices;
+  const auto vertex = [&](const Index& at) {
+    const auto [found, is_new] = vertices.try_emplace(at, 0);
+    if (is_new)
+      found->second =
+          add_vertex(mesh, {xs[static_cast<std::size_t>(at[0])], ys[static_cast<std::size_t>(at[1])],
+                            zs[static_cast<std::size_t>(at[2])]});
+    return found->second;
+  };
+  for (int i = -1; i < static_cast<int>(xs.size()); ++i)
+    for (int j = -1; j < static_cast<int>(ys.size()); ++j)
+      for (int k = -1; k < static_cast<int>(zs.size()); ++k)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const Index here = {i, j, k};
+          Index next = here;
+          ++next[axis];
+          if (solid(here) == solid(next)) continue;
+          const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+          Index corner = next;
+          const std::int32_t a = vertex(corner);
+          ++corner[u];
+          const std::int32_t b = vertex(corner);
+          ++corner[v];
+          const std::int32_t c = vertex(corner);
+          --corner[u];
+          const std::int32_t d = vertex(corner);
+          if (solid(here)) {
+            add_triangle(mesh, a, b, c);
+            add_triangle(mesh, a, c, d);
+          } else {
+            add_triangle(mesh, a, c, b);
+            add_triangle(mesh, a, d, c);
+          }
+        }
+}
+
+/// A floor with walls at both sides and at the back.
+void add_shovel(TriangleMesh& mesh, const Vector3d& size, double thickness) {
+  const double x = 0.5 * size.x(), y = 0.5 * size.y();
+  add_blocks(mesh, {-x, -x + thickness, x}, {-y, -y + thickness, y - thickness, y},
+             {0.0, thickness, size.z()},
+             [](int i, int j, int k) { return k == 0 || i == 0 || j == 0 || j == 2; });
+}
+
 void add_rake(TriangleMesh& mesh, const ToolSettings& tool) {
   std::vector<Vector2d> tooth = sphere_profile(tool.radius, Arc::quarter_circle);
   tooth.emplace_back(tool.radius, std::max(tool.height, tool.radius));
@@ -151,6 +209,18 @@ TriangleMesh tool_surface(const ToolSettings& tool) {
       break;
     case ToolShape::rake:
       add_rake(mesh, tool);
+      break;
+    case ToolShape::shovel:
+      add_shovel(mesh, tool.size, tool.thickness);
+      break;
+    case ToolShape::bowl:
+      add_revolution(mesh,
+                     {{tool.radius, 0.0},
+                      {tool.radius, tool.height},
+                      {tool.radius - tool.thickness, tool.height},
+                      {tool.radius - tool.thickness, tool.thickness},
+                      {0.0, tool.thickness}},
+                     origin);
       break;
     case ToolShape::mesh:
       if (!tool.mesh) throw_input_error("tool.shape = \"mesh\": the mesh was not read; use sandstroke run");

@@ -8,7 +8,8 @@ namespace sandstroke {
 
 /// The surface of any tool in its own frame [m], tip at the origin, before it is turned. Round shapes have so
 /// many corners that the mesh lies at most 1e-4 radii inside the true surface. A rake's teeth are cylinders
-/// with hemispheres at their ends, under a beam. Error: input, where a mesh was not read.
+/// with hemispheres at their ends, under a beam. A shovel is open in front, where x is largest. Error: input,
+/// where a mesh was not read.
 TriangleMesh tool_surface(const ToolSettings& settings);
 
 /// The rotation of the tool's own frame in the bed while the hand is not turned (ToolSettings::orientation).

@@ -18,7 +18,8 @@ ToolSettings tool_of(ToolShape shape) {
   return tool;
 }
 const std::vector<ToolShape> formula_shapes = {ToolShape::sphere, ToolShape::cylinder, ToolShape::cone,
-                                               ToolShape::box,    ToolShape::plate,    ToolShape::rake};
+                                               ToolShape::box,    ToolShape::plate,    ToolShape::rake,
+                                               ToolShape::shovel, ToolShape::bowl};
 
 TEST(ToolSurface, IsClosedAndItsTrianglesGoRoundOneWay) {
   for (const ToolShape shape : formula_shapes) {
@@ -44,6 +45,11 @@ TEST(ToolSurface, EnclosesTheVolumeOfItsShape) {
   expect(ToolShape::cone, pi * R * R * H / 3.0);
   EXPECT_NEAR(volume(ToolShape::box), tool.size.prod(), 1e-18);
   EXPECT_NEAR(volume(ToolShape::plate), tool.thickness * tool.width * H, 1e-18);
+  const Eigen::Vector3d &S = tool.size,
+                        room(S.x() - tool.thickness, S.y() - 2.0 * tool.thickness, S.z() - tool.thickness);
+  EXPECT_NEAR(volume(ToolShape::shovel), S.prod() - room.prod(), 1e-18);
+  const double inner = R - tool.thickness;
+  expect(ToolShape::bowl, pi * R * R * H - pi * inner * inner * (H - tool.thickness));
   const double tooth = 2.0 / 3.0 * pi * R * R * R + pi * R * R * (H - R);
   const double beam = 2.0 * R * (4.0 * tool.spacing + 2.0 * R) * 2.0 * R;
   EXPECT_NEAR(volume(ToolShape::rake), 5.0 * tooth + beam, round * 5.0 * tooth);
@@ -64,7 +70,7 @@ TEST(ToolSurface, AQuarterTurnOfARoundToolIsTheSameSetOfCorners) {
   const auto less = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
   };
-  for (const ToolShape shape : {ToolShape::sphere, ToolShape::cylinder, ToolShape::cone}) {
+  for (const ToolShape shape : {ToolShape::sphere, ToolShape::cylinder, ToolShape::cone, ToolShape::bowl}) {
     TriangleMesh mesh = tool_surface(tool_of(shape)), other = turned(mesh, quarter);
     std::sort(mesh.vertices.begin(), mesh.vertices.end(), less);
     std::sort(other.vertices.begin(), other.vertices.end(), less);
