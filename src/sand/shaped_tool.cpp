@@ -9,7 +9,11 @@
 namespace sandstroke {
 
 ShapedTool::ShapedTool(const ToolSettings& settings)
-    : Tool(0.0, 0.0), surface_(tool_surface(settings)), rotation_(own_rotation(settings)) {
+    : Tool(0.0, 0.0),
+      surface_(tool_surface(settings)),
+      own_rotation_(own_rotation(settings)),
+      rotation_(own_rotation_),
+      carries_(settings.carries) {
   for (const Eigen::Vector3d& vertex : surface_.vertices) farthest_ = std::max(farthest_, vertex.norm());
   radius_ = reach_ = horizontal_reach(turned(surface_, rotation_));
 }
@@ -31,10 +35,16 @@ void ShapedTool::place(const HeightField& bed, double x, double y) {
   footprint_.set_axis(bed, x, y);
   level_ = std::numeric_limits<double>::quiet_NaN();
   touches_ = false;
+  lifted_.clear();
   if (!envelope_ || envelope_->cell_size() != bed.cell_size()) {
     envelope_.emplace(turned(surface_, rotation_), bed.cell_size());
     radius_ = envelope_->inradius();
     reach_ = envelope_->reach();
+    if (carries_) {
+      if (!upper_ || upper_->grid().cell_size() != bed.cell_size())
+        upper_.emplace(turned(surface_, own_rotation_), bed.cell_size());
+      upper_->turn(rotation_ * own_rotation_.transpose());
+    }
   }
   const double left = envelope_->first_col(), down = envelope_->first_row();
   if (!footprint_.open(bed, {left, left + envelope_->cols() - 2, down, down + envelope_->rows() - 2})) return;
@@ -89,25 +99,54 @@ void ShapedTool::prepare(double distance) {
 }
 
 double ShapedTool::carve(double tip_height) {
+  lifted_.clear();
   const CarvedUnder carved = carve_under(envelope_window(), footprint_, tip_height);
   touches_ = std::isfinite(carved.highest);
   covered_ = covered_height(tip_height, carved.highest);
   cover_up_to(footprint_, covered_);
-  return carved.sum;
+  return carved.sum > 0.0 && upper_ ? lift(tip_height) : carved.sum;
+}
+
+double ShapedTool::lift(double tip_height) {
+  double displaced = 0.0;
+  const CellRange& cells = footprint_.cells();
+  for (int row = 0; row < cells.rows(); ++row)
+    for (int col = 0; col < cells.cols(); ++col) {
+      if (!(footprint_.flags(row)[col / cells_per_group] >> (col % cells_per_group) & 1)) continue;
+      double& excess = footprint_.excess(row)[col];
+      const Eigen::Vector2d from_tip =
+          footprint_.cell_size() * Eigen::Vector2d(footprint_.first_x() + col - footprint_.axis_x(),
+                                                   footprint_.first_y() + row - footprint_.axis_y());
+      const UpperSide::Cell cell = upper_->cell_at(upper_->in_grid(from_tip));
+      if (cell.row >= 0) {
+        const double lowest = footprint_.heights(row)[col],
+                     top = tip_height + upper_->top()(cell.row, cell.col),
+                     above = top > lowest ? lowest + excess - top : excess;
+        if (above > 0.0) {
+          lifted_.push_back({from_tip, above});
+          excess -= above;
+        }
+      }
+      displaced += excess;
+    }
+  return displaced;
 }
 
 double ShapedTool::displace_in_footprint(const HeightField& bed, double tip_height,
                                          const Eigen::Vector3d& /*motion*/,
                                          const DisplacementSettings& settings) {
   const double carved = carve(tip_height);
-  if (carved == 0.0 || !std::isfinite(carved)) return carved;
+  double lifted = 0.0;
+  for (const LiftedSand& one : lifted_) lifted += one.height;
+  if (carved == 0.0 || !std::isfinite(carved)) return carved + lifted;
   const double spread = spread_outward(footprint_, carved, {settings.distance, way_out(settings.distance)});
   if (spread <= 0.0) {
     footprint_.read_heights(bed);  // all cells around are tool or wall
+    lifted_.clear();
     return 0.0;
   }
   deposit(footprint_, carved / spread, DepositBy::weights);
-  return carved;
+  return carved + lifted;
 }
 
 void ShapedTool::visit_state(StateVisitor& state, const HeightField& bed, const Eigen::Vector3d& tip) {

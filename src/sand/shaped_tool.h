@@ -10,7 +10,8 @@ namespace sandstroke {
 
 /// Any tool but the sphere, by its envelope. It deposits outward only. Its level is the height, at the axis,
 /// of the plane around it. It may touch a heap beside that level. It covers cells only from its lowest point
-/// up to twice its depth, or up to its highest contact if that is higher. A high overhang covers none.
+/// up to twice its depth, or up to its highest contact if that is higher. A high overhang covers none. One
+/// that carries sand lifts what lies above its upper side.
 class ShapedTool : public Tool {
  public:
   explicit ShapedTool(const ToolSettings& settings);
@@ -26,6 +27,7 @@ class ShapedTool : public Tool {
   bool may_touch_heaps() const override { return true; }
   bool touches() const override { return touches_; }
   void stand(double tip_height) override;
+  const UpperSide* upper_side() const override { return upper_ ? &*upper_ : nullptr; }
   /// Computes all ways out of the tool as it is turned and placed.
   void prepare(double distance) override;
 
@@ -38,6 +40,8 @@ class ShapedTool : public Tool {
   void cover() override;
   /// Returns the sum of heights taken out [m].
   double carve(double tip_height);
+  /// Leaves to lifted() what was carved above the upper side; returns the rest of the sum [m].
+  double lift(double tip_height);
 
   /// Finds the sample at the window's first cell (row, column), counted from the envelope's first, and the
   /// remaining distance to it.
@@ -48,9 +52,11 @@ class ShapedTool : public Tool {
   double covered_height(double tip_height, double touched) const;
 
   TriangleMesh surface_;
-  Eigen::Matrix3d rotation_;
+  Eigen::Matrix3d own_rotation_, rotation_;
   double farthest_ = 0.0;  // m
   std::optional<ToolEnvelope> envelope_;
+  bool carries_;
+  std::optional<UpperSide> upper_;
   int sample_row_ = 0, sample_col_ = 0;
   double sample_y_ = 0.0, sample_x_ = 0.0;
   bool touches_ = false;

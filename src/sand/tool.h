@@ -7,6 +7,7 @@
 #include "core/state_visitor.h"
 #include "rules/displacement.h"
 #include "sand/tool_footprint.h"
+#include "sand/upper_side.h"
 #include "tool/tool_settings.h"
 
 namespace sandstroke {
@@ -55,7 +56,8 @@ class Tool {
 
   /// Makes the paper's two passes (3.1), for a tip at tip_height [m]. The first carves the sand above the
   /// tool's underside out of the bowl. The second deposits it around the tool. A second call carves nothing
-  /// more. The tool must have been placed on the bed as it is now. motion [m]: the tool's displacement
+  /// more. Sand above a carrying tool's upper side is lifted() instead. The tool must have been placed on the
+  /// bed as it is now. motion [m]: the tool's displacement
   /// during the tick (Deposit::ahead). Returns the volume moved [m^3]; volume is conserved to rounding. If no
   /// cell around the tool can take the sand, nothing is displaced.
   double displace(HeightField& bed, double tip_height, const Eigen::Vector3d& motion,
@@ -63,6 +65,12 @@ class Tool {
   /// Fills the footprint's underside() and takes() without displacing, for a law of one's own. The tool must
   /// have been placed on the bed as it is now.
   void meet(const HeightField& bed, double tip_height);
+  /// The upper side of a tool that carries sand, as it is turned and placed; else null. It is there from the
+  /// first place() on.
+  virtual const UpperSide* upper_side() const { return nullptr; }
+  /// The sand above it that the last displace() took out of the bed, to lie on the tool.
+  const std::vector<LiftedSand>& lifted() const { return lifted_; }
+
   /// Whether the tool may touch sand although it is above the level around it.
   virtual bool may_touch_heaps() const { return false; }
   /// Whether the last displace() or meet() since place() found such sand, or any other, at its underside.
@@ -99,6 +107,7 @@ class Tool {
   double radius_, reach_;  // m
   double level_ = std::numeric_limits<double>::quiet_NaN();
   ToolFootprint footprint_;
+  std::vector<LiftedSand> lifted_;
 };
 
 /// Makes the tool that the settings describe. Needs radius > 0, and a mesh that has been read.
