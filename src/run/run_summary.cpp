@@ -73,6 +73,13 @@ nlohmann::ordered_json run_summary(const RunResult& r, const Scene& scene, const
     json["given_volume"] = r.given_volume;
     json["sources"] = sources_json(r.sources);
   }
+  if (r.load) {
+    json["given_volume"] = r.given_volume;
+    json["load"] = {{"lifted", r.load->lifted}, {"ran_on", r.load->ran_on},
+                    {"caught", r.load->caught}, {"spilled", r.load->spilled},
+                    {"in_air", r.load->in_air}, {"carried", r.load->carried},
+                    {"most", r.load->most},     {"density", scene.strength.density}};
+  }
   if (r.followed) json["followed"] = followed_json(*r.followed);
   if (r.recorded_force)
     json["recorded_force"] = {{"ticks", r.recorded_force->ticks},
@@ -92,6 +99,12 @@ std::string text_of(const SourceLedger& source) {
   if (source.asked > 0.0) return fmt::format("took {:.4g} kg of {:.4g} kg asked", source.taken, source.asked);
   return fmt::format("poured {:.4g} kg, landed {:.4g} kg, in the air {:.4g} kg", source.poured, source.landed,
                      source.in_air);
+}
+
+std::string text_of(const LoadLedger& load, double density) {
+  const double taken = load.lifted + load.ran_on + load.caught;
+  return fmt::format("took up {:.4g} kg, carried {:.4g} kg at most, spilled {:.4g} kg, {:.4g} kg left on it",
+                     density * taken, density * load.most, density * load.spilled, density * load.carried);
 }
 
 nlohmann::ordered_json sources_json(const std::vector<SourceLedger>& sources) {

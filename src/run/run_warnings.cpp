@@ -30,6 +30,14 @@ std::string in_floor_text(const DeviceResult& result, const Scene& scene) {
       1e3 * result.most_floor_depth, *result.in_floor_from);
 }
 
+std::string slide_text(const RunResult& result, const Scene& scene) {
+  if (result.most_slide <= 1.0) return "";
+  return fmt::format(
+      "at {:.3f} s the tool accelerates so hard that the sand on it would slide off ({:.2g} times what holds "
+      "sand at a talus of {:g} deg), but here it stays; move the tool more gently there",
+      result.slides_at, result.most_slide, scene.relaxation.talus_angle);
+}
+
 }  // namespace
 
 std::vector<Warning> warnings_of_run(const RunResult& result, const Scene& scene) {
@@ -42,6 +50,8 @@ std::vector<Warning> warnings_of_run(const RunResult& result, const Scene& scene
       warnings.push_back({furrow_shallow, shallow});
   if (const std::string in_floor = in_floor_text(result.device, scene); !in_floor.empty())
     warnings.push_back({stroke_in_floor, in_floor});
+  if (const std::string slides = slide_text(result, scene); !slides.empty())
+    warnings.push_back({load_slides, slides});
   if (scene.device.model == DeviceModel::dynamic && loop_returned_energy(result.device, scene.device))
     warnings.push_back(
         {loop_active,

@@ -72,23 +72,36 @@ void DeviceSide::feel(TickRecord& record) {
     felt = force_->felt_sand(record, device_.settings());
     result_.max_drag_force = std::max(result_.max_drag_force, length_of(record.drag_force));
   }
+  if (record.load > 0.0) bear(computed, record);
   record.device_force = late_force_.act(computed);
   record.dropped = late_force_.dropped();
   record.passivity_margin = passivity_margin(felt.stiffness, felt.drag, device_.settings());
   check_numbers(record);
 }
 
+/// Gravity draws on what the tool carries as it does on any mass, in contact or not.
+void DeviceSide::bear(Eigen::Vector3d& force, TickRecord& record) const {
+  record.load_given = record.load;
+  force.z() -= record.load;
+  const double most = device_.settings().max_force, whole = length_of(force);
+  if (!(most > 0.0 && whole > most)) return;
+  force *= most / whole;
+  record.load_given *= most / whole;
+  record.saturated = true;
+}
+
 void DeviceSide::move(const TickRecord& record) {
   const Eigen::Vector3d before = device_.state().position;
   device_.advance(state_of(record.hand), state_of(record.next), record.device_force);
   const Eigen::Vector3d motion = device_.state().position - before;
-  energy_.add(record.device_force, motion);
+  energy_.add(record.device_force + record.load_given * Eigen::Vector3d::UnitZ(), motion);
   if (device_.settings().model == DeviceModel::dynamic) watch(record, motion);
 }
 
 void DeviceSide::watch(const TickRecord& record, const Eigen::Vector3d& motion) {
   const DeviceSettings& d = device_.settings();
   Eigen::Vector3d returned = returned_along_axes(record, motion);
+  returned.z() += record.load_given * motion.z();
   if (record.contact) {
     most_stored_ = std::max(most_stored_, force_->stored(record, d));
     const Eigen::Vector3d rounded =

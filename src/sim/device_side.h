@@ -43,6 +43,7 @@ class DeviceSide {
  private:
   /// Error: unstable, if a force or the passivity margin is no finite number.
   void check_numbers(const TickRecord& record) const;
+  void bear(Eigen::Vector3d& force, TickRecord& record) const;
   void move(const TickRecord& record);
   void watch(const TickRecord& record, const Eigen::Vector3d& motion);
   double faded_in(const TickRecord& record);

@@ -14,6 +14,7 @@
 #include "sand/relaxation.h"
 #include "sand/resistive_force.h"
 #include "sim/source_settings.h"
+#include "sim/tool_load.h"
 
 namespace sandstroke {
 
@@ -30,7 +31,10 @@ struct TickRecord {
   /// N, of the bed's floor and its stones (sim/floor_force.h).
   Eigen::Vector3d floor_force = Eigen::Vector3d::Zero();
   double floor_depth = 0.0;  ///< m, of the tool in the floor: the least way that frees it
-  Wrench wrench = {};        ///< by any law but the paper's: force and torque on the bed's axes
+  double carried = 0.0;      ///< kg of sand on the tool
+  double load = 0.0;         ///< N, the weight of it that the tool feels
+  double load_given = 0.0;  ///< N, of that, what the device gives; gravity keeps energy, so no law returns it
+  Wrench wrench = {};       ///< by any law but the paper's: force and torque on the bed's axes
   double level = std::numeric_limits<double>::quiet_NaN();  ///< m, sand level under the tool; NaN: lifted
   double depth = 0.0;             ///< m, of the tip below the level; negative = above
   double displaced_volume = 0.0;  ///< m^3, displaced in this tick
@@ -54,6 +58,9 @@ struct TickRecord {
     state.value("recorded_force", recorded_force);
     state.value("floor_force", floor_force);
     state.value("floor_depth", floor_depth);
+    state.value("carried", carried);
+    state.value("load", load);
+    state.value("load_given", load_given);
     state.value("wrench", wrench);
     state.value("level", level);
     state.value("depth", depth);
@@ -75,6 +82,7 @@ struct TraceContent {
   bool torque = false;          ///< the law of force is not the paper's
   bool orientation = false;     ///< the stroke turns the tool
   bool floor = false;           ///< the bed has a floor
+  bool carried = false;         ///< the tool carries sand
 };
 
 /// A field of a record, described for readers of a file.
@@ -135,6 +143,14 @@ void visit_tick_fields(const Visit& visit) {
       Text{"floor_depth", "m", "depth of the tool in the floor: the least way that frees it; 0 beside it",
            &TraceContent::floor},
       [](auto& tick) -> auto& { return tick.floor_depth; });
+  visit(
+      Text{"carried", "kg", "sand on the tool", &TraceContent::carried},
+      [](auto& tick) -> auto& { return tick.carried; });
+  visit(
+      Text{"load", "N",
+           "weight of the sand on the tool that the tool feels: of what stands above the sand around it",
+           &TraceContent::carried},
+      [](auto& tick) -> auto& { return tick.load; });
   visit(
       Text{"torque", "N m", "torque of the sand on the tool about its tip", &TraceContent::torque},
       [](auto& tick) -> auto& { return tick.wrench.torque; });
@@ -346,7 +362,12 @@ struct RunResult {
   double volume_final = 0.0;      ///< m^3
   double displaced_volume = 0.0;  ///< m^3, by the tool
   double given_volume = 0.0;      ///< m^3, landed from sources, less what sinks have taken
-  double moved_volume = 0.0;      ///< m^3, by tool, relaxation and sources
+  /// How hard the tool moved under a load at most: its acceleration along the bed over that at which sand
+  /// slides on it, tan(talus) (g + its acceleration upwards).
+  double most_slide = 0.0;
+  double slides_at = 0.0;          ///< s
+  std::optional<LoadLedger> load;  ///< if the tool carries sand
+  double moved_volume = 0.0;       ///< m^3, by tool, relaxation and sources
   /// |final - initial - given| / moved volume; 0 where nothing moved
   double volume_drift = 0.0;
   double max_depth = 0.0;          ///< m
@@ -380,6 +401,8 @@ struct RunResult {
     state.value("nearest", nearest);
     state.value("nearest_time", nearest_time);
     state.value("least_beside", least_beside);
+    state.value("most_slide", most_slide);
+    state.value("slides_at", slides_at);
     state.value("followed", followed);
   }
 };

@@ -23,20 +23,35 @@ constexpr double least_way = 0.25;
 /// with 0.2, 5.2 % with 0.1; a sand table takes 0.35, 0.46 and 0.84 s with 0.5, 0.2 and 0.
 constexpr double deep_at_rim = 0.2;
 
+/// Whoever does not ask for the sand on a tool must not lose it there.
+ToolSettings without_load(ToolSettings tool) {
+  tool.carries = false;
+  return tool;
+}
+
 }  // namespace
 
 SandSide::SandSide(const ToolSettings& tool, const DisplacementSettings& displacement,
                    const RelaxationSettings& relaxation, std::unique_ptr<Displacer> plugin_law)
-    : tool_(make_tool(tool)),
+    : tool_(make_tool(without_load(tool))),
       displacement_(displacement),
       plugin_law_(std::move(plugin_law)),
       solid_(tool.solid),
+      relaxation_(relaxation),
       way_(relaxation.way),
       way_at_rim_(relaxation.way_at_rim),
       by_way_(relaxation.way > 0.0) {}
 
+void SandSide::carry(const ToolSettings& tool, double density) {
+  tool_ = Copied<Tool>(make_tool(tool));
+  density_ = density;
+}
+
 Interaction SandSide::look(const HeightField& bed, const Eigen::Vector3d& read_tip) {
   tool_->place(bed, read_tip.x(), read_tip.y());
+  if (density_ > 0.0 && !load_ && tool_->upper_side())
+    load_.emplace(relaxation_, density_, *tool_->upper_side());
+  if (load_) load_->go_with(*tool_->upper_side());
   Interaction interaction;
   interaction.level = tool_->sand_level();
   const double depth = tool_->depth(read_tip.z());
@@ -65,10 +80,40 @@ Interaction SandSide::displace_at(HeightField& bed, const Eigen::Vector3d& tip,
   const bool on_floor = tool_->footprint().highest_floor() > tip.z() + tool_->lowest();
   if (interaction.contact || tool_->may_touch_heaps() || on_floor)
     interaction.displaced_volume = displace_sand(bed, tip, motion);
+  if (load_) load_->take(*tool_, bed.cell_area());
   interaction.contact |= tool_->touches() || (on_floor && interaction.displaced_volume > 0.0);
   tip_ = tip;
   contact_ = interaction.contact;
   return interaction;
+}
+
+std::optional<LoadSurface> SandSide::load_surface() const {
+  if (!load_ || load_->carried().empty()) return {};
+  return load_->carried().surface(*tool_->upper_side());
+}
+
+double SandSide::top_at(const Eigen::Vector2d& place) const {
+  constexpr double beside = -std::numeric_limits<double>::infinity();
+  if (!load_) return beside;
+  const UpperSide& upper = *tool_->upper_side();
+  const Eigen::Vector2d in_grid = upper.in_grid(place - tip_.head<2>());
+  const double row = std::round(upper.grid().row_at(in_grid.y())),
+               col = std::round(upper.grid().col_at(in_grid.x()));
+  if (!(row >= 0.0 && row < upper.grid().rows() && col >= 0.0 && col < upper.grid().cols())) return beside;
+  const auto r = static_cast<int>(row), c = static_cast<int>(col);
+  return upper.covers(r, c) ? tip_.z() + upper.top()(r, c) + load_->carried().thickness()(r, c) : beside;
+}
+
+void SandSide::catch_sand(const Eigen::Vector2d& place, double height, double cell_area) {
+  load_->take(*tool_->upper_side(), {place - tip_.head<2>(), height}, cell_area);
+}
+
+LoadOnTool SandSide::load_on_tool() const {
+  if (!load_) return {};
+  const double level = tool_->sand_level();
+  return load_->on_tool(*tool_->upper_side(), contact_ && !std::isnan(level)
+                                                  ? level - tip_.z()
+                                                  : -std::numeric_limits<double>::infinity());
 }
 
 void SandSide::put(const HeightField& bed, const Eigen::Vector3d& read_tip, bool contact) {
@@ -139,6 +184,15 @@ void SandSide::visit_state(StateVisitor& state, const HeightField& bed) {
   state.value("tool.tip", tip_);
   state.value("tool.contact", contact_);
   tool_->visit_state(state, bed, tip_);
+  bool loaded = load_.has_value();
+  state.value("tool.loaded", loaded);
+  if (state.restores()) {
+    load_.reset();
+    if (loaded) load_.emplace(relaxation_, density_, *tool_->upper_side());
+  }
+  if (!load_) return;
+  load_->visit_state(state);
+  if (state.restores()) load_->go_on(*tool_->upper_side());
 }
 
 }  // namespace sandstroke

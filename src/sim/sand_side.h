@@ -9,6 +9,7 @@
 #include "rules/schedule.h"
 #include "sand/displacer.h"
 #include "sand/relaxation.h"
+#include "sim/tool_load.h"
 
 namespace sandstroke {
 
@@ -28,6 +29,26 @@ class SandSide {
   /// the displacement of the settings.
   SandSide(const ToolSettings& tool, const DisplacementSettings& displacement,
            const RelaxationSettings& relaxation = {}, std::unique_ptr<Displacer> plugin_law = nullptr);
+
+  /// The tool, which is the constructor's, carries sand from now on. density [kg/m^3]: of the sand in bulk.
+  /// Without this call no tool does, whatever its settings say.
+  void carry(const ToolSettings& tool, double density);
+  /// The sand on the tool, from the first move() on; null: the tool carries none.
+  ToolLoad* load() { return load_ ? &*load_ : nullptr; }
+  const ToolLoad* load() const { return load_ ? &*load_ : nullptr; }
+  /// What is seen of the sand on the tool; none: there is none.
+  std::optional<LoadSurface> load_surface() const;
+  /// The height at which sand that falls at a place comes down on a tool that carries [m]; -infinity: beside
+  /// it.
+  double top_at(const Eigen::Vector2d& place) const;
+  /// Takes a height of sand over a cell of the bed at such a place [m].
+  void catch_sand(const Eigen::Vector2d& place, double height, double cell_area);
+  /// Brings the sand on the tool to rest, at this time [s].
+  void relax_load(HeightField& bed, double time) {
+    if (load_) load_->relax(*tool_, bed, tip_, time);
+  }
+  /// What the sand on the tool does to it.
+  LoadOnTool load_on_tool() const;
 
   /// Sets the tool's orientation from the next move() on (Tool::turn). The tool keeps it during the
   /// whole move.
@@ -92,6 +113,9 @@ class SandSide {
   DisplacementSettings displacement_;
   Copied<Displacer> plugin_law_;
   bool solid_;
+  RelaxationSettings relaxation_;
+  double density_ = 0.0;  // kg/m^3; 0: the tool carries nothing
+  std::optional<ToolLoad> load_;
   double way_, way_at_rim_;  // radii
   RelaxationByWay by_way_;
   std::optional<Eigen::Vector3d> last_tip_;        // the true one

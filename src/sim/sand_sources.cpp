@@ -33,15 +33,15 @@ double SandSources::last_stop() const {
   return last;
 }
 
-void SandSources::act(HeightField& bed, double until) {
+void SandSources::act(HeightField& bed, double until, SandCatcher* catcher) {
   for (int i = 0; i < static_cast<int>(sources_.size()); ++i) {
     const Nozzle& nozzle = sources_[static_cast<std::size_t>(i)].nozzle;
     const double begin = std::max(acted_until_, nozzle.start()), end = std::min(until, nozzle.stop());
-    if (begin < end) open(bed, i, begin, end);
+    if (begin < end) open(bed, i, begin, end, catcher);
   }
   while (!in_air_.empty() && in_air_.front().lands < until) {
     std::pop_heap(in_air_.begin(), in_air_.end(), later);
-    land(bed, in_air_.back());
+    land(bed, in_air_.back(), catcher);
     in_air_.pop_back();
   }
   acted_until_ = until;
@@ -51,15 +51,19 @@ bool SandSources::later(const Packet& one, const Packet& other) {
   return one.lands != other.lands ? one.lands > other.lands : one.count > other.count;
 }
 
-void SandSources::open(HeightField& bed, int source, double begin, double end) {
+void SandSources::open(HeightField& bed, int source, double begin, double end, const SandCatcher* catcher) {
   Source& s = sources_[static_cast<std::size_t>(source)];
   const double middle = 0.5 * (begin + end), mass = std::abs(s.settings.rate) * (end - begin);
   const std::optional<Eigen::Vector3d> mouth = s.nozzle.at(middle);
   if (!mouth) return;
   if (s.settings.rate < 0.0) return take(bed, s, *mouth, mass);
   s.poured.add(mass);
-  const double fall = fall_time(mouth->z(), bed.height_at(mouth->x(), mouth->y()));
-  in_air_.push_back({middle + fall, packets_++, mass, mouth->x(), mouth->y(), source});
+  double ends = bed.height_at(mouth->x(), mouth->y());
+  if (catcher)
+    if (const double top = catcher->top_at(mouth->x(), mouth->y()); top < mouth->z())
+      ends = std::max(ends, top);
+  in_air_.push_back(
+      {middle + fall_time(mouth->z(), ends), packets_++, mass, mouth->x(), mouth->y(), mouth->z(), source});
   std::push_heap(in_air_.begin(), in_air_.end(), later);
 }
 
@@ -89,7 +93,7 @@ double SandSources::set(HeightField& bed, const CellUnder& cell, double before, 
   return (after - before) * bed.cell_area() * density_;
 }
 
-void SandSources::land(HeightField& bed, const Packet& packet) {
+void SandSources::land(HeightField& bed, const Packet& packet, SandCatcher* catcher) {
   Source& source = sources_[static_cast<std::size_t>(packet.source)];
   const std::vector<CellUnder>& cells = cells_under(bed, source, packet.x, packet.y);
   double whole = 0.0;
@@ -98,6 +102,15 @@ void SandSources::land(HeightField& bed, const Packet& packet) {
   double given = 0.0;
   for (const CellUnder& cell : cells) {
     const double before = bed(cell.row, cell.col);
+    if (catcher) {
+      const double x = bed.x_of(cell.col), y = bed.y_of(cell.row), top = catcher->top_at(x, y);
+      if (top > before && top < packet.z) {
+        catcher->take(x, y, rise * cell.part);
+        given += rise * cell.part * bed.cell_area() * density_;
+        unsettled_ = true;
+        continue;
+      }
+    }
     given += set(bed, cell, before, before + rise * cell.part);
   }
   source.landed.add(packet.mass);

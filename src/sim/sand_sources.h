@@ -9,12 +9,22 @@
 
 namespace sandstroke {
 
+/// A tool over the bed, on which sand may come down.
+class SandCatcher {
+ public:
+  virtual ~SandCatcher() = default;
+  /// The height at which sand that falls at a place [m] comes down on the tool; -infinity: beside it.
+  virtual double top_at(double x, double y) const = 0;
+  /// Takes a height of sand over a cell of the bed there, where top_at() is above the bed [m].
+  virtual void take(double x, double y, double height) = 0;
+};
+
 /// Pours sand onto a bed and takes sand from it.
 ///
 /// What leaves a nozzle falls straight down, and lands after sqrt(2 (z - h) / g), h being the sand's height
-/// under the nozzle's middle when it leaves. It is then spread over the cells under the nozzle. A sink takes
-/// from the cells under it, in proportion to what stands there above its mouth and above the bed's floor:
-/// all of that at most.
+/// under the nozzle's middle when it leaves, or that of the tool that is there. It is then spread over the
+/// cells under the nozzle, or goes to the tool over them. A sink takes from the cells under it, in proportion
+/// to what stands there above its mouth and above the bed's floor: all of that at most.
 class SandSources {
  public:
   /// density [kg/m^3]: of the sand in bulk.
@@ -22,8 +32,9 @@ class SandSources {
 
   /// A source without a stop stops at this time [s].
   void stop_by(double time);
-  /// All that happens from where the last call ended until this time [s].
-  void act(HeightField& bed, double until);
+  /// All that happens from where the last call ended until this time [s]. catcher: null: no tool carries
+  /// sand.
+  void act(HeightField& bed, double until, SandCatcher* catcher = nullptr);
   /// No source is open any more, and nothing is in the air.
   bool ended() const;
   /// When the last source stops [s].
@@ -57,9 +68,9 @@ class SandSources {
   };
   /// Sand in the air that left a nozzle at one time.
   struct Packet {
-    double lands;         // s
-    std::uint64_t count;  // of those before it: which one of two comes first
-    double mass, x, y;    // kg, m
+    double lands;          // s
+    std::uint64_t count;   // of those before it: which one of two comes first
+    double mass, x, y, z;  // kg, m, where it left
     int source;
 
     template <class State>
@@ -69,12 +80,13 @@ class SandSources {
       state.value("mass", mass);
       state.value("x", x);
       state.value("y", y);
+      state.value("z", z);
       state.value("source", source);
     }
   };
   static bool later(const Packet& one, const Packet& other);
-  void open(HeightField& bed, int source, double begin, double end);
-  void land(HeightField& bed, const Packet& packet);
+  void open(HeightField& bed, int source, double begin, double end, const SandCatcher* catcher);
+  void land(HeightField& bed, const Packet& packet, SandCatcher* catcher);
   void take(HeightField& bed, Source& sink, const Eigen::Vector3d& mouth, double mass);
   const std::vector<CellUnder>& cells_under(const HeightField& bed, Source& source, double x, double y);
   /// Sets a cell's height [m]; returns the sand that it gained [kg]. Error: unstable, if it is no height.

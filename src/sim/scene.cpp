@@ -70,18 +70,21 @@ void describe_bed(KeyVisitor& v, BedSettings& bed, GroundSettings& ground) {
 
 void describe_tool(KeyVisitor& v, ToolSettings& tool) {
   v.section("tool", "what is pushed through the sand");
-  choose(v, "shape", tool.shape, {"sphere", "cylinder", "cone", "box", "plate", "rake", "mesh"},
+  choose(v, "shape", tool.shape,
+         {"sphere", "cylinder", "cone", "box", "plate", "rake", "shovel", "bowl", "mesh"},
          "its shape; its tip is the middle of its underside, or the origin of a mesh's file");
   const auto is = [&](auto... shapes) { return ((tool.shape == shapes) || ...); };
   using enum ToolShape;
-  if (is(sphere, cylinder, cone, rake))
+  if (is(sphere, cylinder, cone, rake, bowl))
     v.number("radius", tool.radius, positive, "m", "radius (cone: at its top; rake: of each tooth)");
-  if (is(cylinder, cone, plate, rake)) v.number("height", tool.height, positive, "m", "height above the tip");
-  if (is(box)) v.numbers("size", tool.size.data(), 3, positive, "m", "extent along x, y and z");
-  if (is(plate)) {
-    v.number("width", tool.width, positive, "m", "extent along y");
-    v.number("thickness", tool.thickness, positive, "m", "extent along x");
-  }
+  if (is(cylinder, cone, plate, rake, bowl))
+    v.number("height", tool.height, positive, "m", "height above the tip");
+  if (is(box, shovel)) v.numbers("size", tool.size.data(), 3, positive, "m", "extent along x, y and z");
+  if (is(plate)) v.number("width", tool.width, positive, "m", "extent along y");
+  if (is(plate, shovel, bowl))
+    v.number(
+        "thickness", tool.thickness, positive, "m",
+        "extent along x; of a shovel, which is open where x is largest, and of a bowl: of floor and walls");
   if (is(rake)) {
     v.integers("teeth", &tool.teeth, 1, 1, 200,
                "teeth in a row along y, round at their ends, under a beam that is two radii wide and high");
@@ -99,6 +102,11 @@ void describe_tool(KeyVisitor& v, ToolSettings& tool) {
               "rotation about x, then about y, then about z");
   }
   v.flag("solid", tool.solid, "no sand flows under the tool while the tool touches sand");
+  if (!is(sphere))
+    v.flag(
+        "carries", tool.carries,
+        "sand above its upper side stays on it and goes with it, until it runs over the rim; the hand feels "
+        "its weight");
 }
 
 void describe_density(KeyVisitor& v, SandStrength& sand) {
@@ -113,7 +121,7 @@ void describe_blend(KeyVisitor& v, SandStrength& sand, bool counts) {
            "changes; 0: the width of the tool's narrowest part");
 }
 
-/// has_weight: the scene has sources or moist sand, which need the sand's density.
+/// has_weight: the scene has sources, moist sand or a tool that carries sand, which need the sand's density.
 void describe_force(KeyVisitor& v, ForceSettings& force, SandStrength& sand, const GroundSettings& ground,
                     bool has_weight) {
   v.section("force", "the force of the sand on the device");
@@ -299,6 +307,43 @@ void check_bed(const Scene& scene, const std::string& name) {
     throw_input_error("{}: bed.surface.file is missing; name a run file or a map", name);
 }
 
+/// Error: input, where the walls of a shovel or a bowl leave no room, or are so thin that sand would run
+/// through them.
+void check_walls(const Scene& scene, const std::string& name) {
+  const ToolSettings& tool = scene.tool;
+  if (tool.shape != ToolShape::shovel && tool.shape != ToolShape::bowl) return;
+  const bool is_bowl = tool.shape == ToolShape::bowl;
+  const double least = is_bowl ? std::min(tool.radius, tool.height)
+                               : std::min({tool.size.x(), 0.5 * tool.size.y(), tool.size.z()});
+  if (!(tool.thickness < least))
+    throw_input_error("{}: tool.thickness = {:g} m leaves no room in the {}; take less than {:g} m", name,
+                      tool.thickness, is_bowl ? "bowl" : "shovel", least);
+  constexpr double least_cells = 1.5;
+  if (tool.carries && tool.thickness < least_cells * scene.bed.cell_size())
+    throw_input_error(
+        "{}: tool.thickness = {:g} m is {:.2g} cells: sand would run through such a wall; take {:.3g} m or "
+        "more, or smaller cells",
+        name, tool.thickness, tool.thickness / scene.bed.cell_size(), least_cells * scene.bed.cell_size());
+}
+
+/// Error: input, where a tool that carries sand does not go with other settings.
+void check_carrying(const Scene& scene, const std::string& name) {
+  if (!scene.tool.carries) return;
+  const PluginLawSettings& own = scene.plugin_laws;
+  for (const auto& [key, law] :
+       {std::pair("relaxation", &own.relaxation), std::pair("displacement", &own.displacement)})
+    if (!law->empty())
+      throw_input_error(
+          "{}: model.{} = \"{}\" is a plugin law, which knows no tool.carries; remove one of the two", name,
+          key, *law);
+  if (scene.relaxation.law == RelaxationLaw::paper && takes_super_steps(scene.relaxation.method))
+    throw_input_error(
+        "{}: relaxation.law = \"paper\" goes with relaxation.method = \"passes\" or \"plain\" where sand "
+        "lies "
+        "on a tool (tool.carries); take one of them, or another law",
+        name);
+}
+
 void check_tool(const Scene& scene, const std::string& name) {
   const bool is_sphere = scene.tool.shape == ToolShape::sphere;
   if (!is_sphere && scene.plugin_laws.displacement.empty() && scene.displacement.deposit != Deposit::outward)
@@ -308,6 +353,8 @@ void check_tool(const Scene& scene, const std::string& name) {
         name);
   if (scene.tool.shape == ToolShape::mesh && scene.tool.file.empty())
     throw_input_error("{}: tool.file is missing; name a mesh (.stl)", name);
+  check_walls(scene, name);
+  check_carrying(scene, name);
   if (scene.tool.shape == ToolShape::rake && scene.tool.teeth > 1 &&
       scene.tool.spacing < 2.0 * scene.tool.radius)
     throw_input_error(
@@ -364,7 +411,7 @@ void describe_scene(KeyVisitor& v, Scene& scene) {
               describe_source);
 
   describe_moisture(v, scene.moisture);
-  const bool has_weight = !scene.sources.empty() || scene.moisture;
+  const bool has_weight = !scene.sources.empty() || scene.moisture || scene.tool.carries;
   describe_force(v, scene.force, scene.strength, scene.ground, has_weight);
 
   describe_relaxation(v, scene.relaxation);

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "core/elementary.h"
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "haptics/recorded_force.h"
+#include "rules/force.h"
 #include "rules/schedule.h"
+#include "rules/talus.h"
 #include "sim/check_inside.h"
 
 namespace sandstroke {
@@ -45,6 +49,23 @@ Hand Simulation::hand_at(double time) {
   return follower_ ? follower_->follow(hand, bed()) : hand;
 }
 
+/// Sand slides on a rough tool that accelerates in a direction steeper than the talus. Scripts change their
+/// velocity at once, and a recorded hand's is noisy: what counts is the change over some time.
+void Simulation::account_load(const TickRecord& record) {
+  constexpr double over = 0.05;  // s
+  const Eigen::Vector3d velocity = scene().device.scale * record.hand.velocity;
+  if (record.carried == 0.0 || record.lifts || !record.hand.down) return slow_velocity_.reset();
+  if (!slow_velocity_) slow_velocity_ = velocity;
+  const Eigen::Vector3d acceleration = (velocity - *slow_velocity_) / over;
+  *slow_velocity_ += acceleration / scene().device.servo_rate;
+  const double holds = talus_slope(scene().relaxation.talus_angle) * (gravity + acceleration.z()),
+               along = elementary::hypot(acceleration.x(), acceleration.y());
+  const double slide = holds > 0.0 ? along / holds : std::numeric_limits<double>::infinity();
+  if (slide <= result_.most_slide) return;
+  result_.most_slide = slide;
+  result_.slides_at = record.time;
+}
+
 void Simulation::account(const TickRecord& record) {
   result_.ticks += 1;
   result_.contact_ticks += record.contact;
@@ -54,6 +75,7 @@ void Simulation::account(const TickRecord& record) {
     result_.max_contact_speed =
         std::max(result_.max_contact_speed, scene().device.scale * length_of(record.hand.velocity));
   }
+  if (scene().tool.carries) account_load(record);
   if (!record.hand.down) return;
   if (std::isnan(record.level)) {
     const Eigen::Vector3d tip = tip_of(scene().device, record.device_position);
@@ -82,9 +104,10 @@ TraceContent Simulation::trace_content() const {
   return {.recorded_force = stroke_ && !stroke_->stroke().force.empty(),
           .dropped_ticks = scene().device.dropped_ticks > 0.0,
           .asked_depth = follower_.has_value(),
-          .torque = loop_.has_torque(),
+          .torque = loop_.has_torque() || scene().tool.carries,
           .orientation = stroke_ && !stroke_->stroke().orientation.empty(),
-          .floor = loop_.has_floor()};
+          .floor = loop_.has_floor(),
+          .carried = scene().tool.carries};
 }
 
 std::int64_t Simulation::told_ticks() const {
@@ -146,6 +169,8 @@ RelaxationOutcome Simulation::relax(double time) {
 
 void Simulation::keep_frame(double time) {
   const HeightField& surface = shown_bed();
+  if (const std::optional<LoadSurface> load = loop_.load_surface())
+    tell([&](auto& observer) { observer.on_load(*load); });
   tell([&](auto& observer) { observer.on_frame(time, surface); });
 }
 
@@ -155,6 +180,7 @@ void Simulation::visit_state(StateVisitor& state) {
   state.value("next_idle", next_idle_);
   state.value("hand", hand_);
   if (follower_) state.value("follower", *follower_);
+  state.value("slow_velocity", slow_velocity_);
   double seconds = seconds_before_ + watch_.seconds();
   state.value("seconds", seconds);
   if (state.restores()) seconds_before_ = seconds;
@@ -238,6 +264,9 @@ RunResult Simulation::run(const Observers& observers, const Checkpoints& checkpo
   if (!interrupted()) {
     loop_.lift();
     relax(result_.simulated_seconds);
+    constexpr int most_turns = 1000;  // sand that runs on from a bed to a tool and back does so ever less
+    for (int turn = 0; turn < most_turns && loop_.end_spills() && !interrupted(); ++turn)
+      relax(result_.simulated_seconds);
     result_.interrupted = interrupted() != 0 && !result_.relaxation.converged;
   } else {
     result_.interrupted = true;
@@ -248,6 +277,10 @@ RunResult Simulation::run(const Observers& observers, const Checkpoints& checkpo
     result_.sources = sources->ledgers();
     result_.given_volume = sources->given_volume();
     result_.moved_volume += sources->moved_volume();
+  }
+  if (const ToolLoad* const load = loop_.load()) {
+    result_.load = load->ledger();
+    result_.given_volume += load->given_volume();
   }
   if (!std::isfinite(result_.volume_final) || !std::isfinite(result_.moved_volume))
     throw Error(

@@ -64,6 +64,7 @@ class Simulation {
   /// The stroke's hand at that time of the stroke, on the sand as it lies now.
   Hand hand_at(double time);
   /// Adds a tick to the result.
+  void account_load(const TickRecord& record);
   void account(const TickRecord& record);
   /// Plays idle ticks: relaxes sand that is not at rest when that is due, and keeps frames. Returns the tick
   /// after the last one.
@@ -88,6 +89,7 @@ class Simulation {
   Stopwatch watch_;
   double seconds_before_ = 0.0;  // of the run that kept the state
   Observers observers_;
+  std::optional<Eigen::Vector3d> slow_velocity_;  // m/s, of a tool with sand on it
   RunResult result_;
 };
 

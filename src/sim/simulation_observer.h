@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/state_visitor.h"
+#include "sand/carried_sand.h"
 #include "sand/height_field.h"
 #include "sim/run_result.h"
 
@@ -18,6 +19,8 @@ class SimulationObserver {
   /// Called output.frames times a second, first at time 0; then with the bed at rest
   /// (Simulation::shown_bed).
   virtual void on_frame(double /*time*/, const HeightField&) {}
+  /// Before a frame where sand lies on the tool.
+  virtual void on_load(const LoadSurface&) {}
   /// fraction: the part of the stroke that is done, 0 to 1.
   virtual void on_progress(double /*fraction*/) {}
   /// passes: of the current relaxation, so far.

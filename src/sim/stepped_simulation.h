@@ -30,6 +30,8 @@ class SteppedSimulation {
   std::vector<SourceLedger> sources() const {
     return loop_.sources() ? loop_.sources()->ledgers() : std::vector<SourceLedger>();
   }
+  /// The sand on the tool; null: it carries none.
+  const ToolLoad* load() const { return loop_.load(); }
   /// Time of the next tick [s].
   double time() const;
 

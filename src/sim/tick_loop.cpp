@@ -1,5 +1,7 @@
 #include "sim/tick_loop.h"
 
+#include <limits>
+
 #include "core/error.h"
 #include "rules/schedule.h"
 #include "sand/ground.h"
@@ -19,12 +21,35 @@ TickLoop::TickLoop(const Scene& scene, HeightField bed, bool plays, std::unique_
       device_(scene),
       relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene, bed_)) {
   if (plays && bed_.ground() && bed_.ground()->has_floor()) floor_.emplace(scene.tool, bed_.cell_size());
+  if (scene.tool.carries) sand_.carry(scene.tool, scene.strength.density);
   if (!scene.sources.empty()) sources_.emplace(scene.sources, scene.strength.density);
   if (!scene.plugin_laws.relaxation.empty() || !scene.plugin_laws.displacement.empty()) watch_.emplace(bed_);
 }
 
+namespace {
+
+/// A tool that carries sand, over a bed.
+class CarryingTool : public SandCatcher {
+ public:
+  CarryingTool(SandSide& sand, double cell_area) : sand_(sand), cell_area_(cell_area) {}
+  double top_at(double x, double y) const override { return sand_.top_at({x, y}); }
+  void take(double x, double y, double height) override { sand_.catch_sand({x, y}, height, cell_area_); }
+
+ private:
+  SandSide& sand_;
+  double cell_area_;
+};
+
+}  // namespace
+
+void TickLoop::pour(double time) {
+  CarryingTool tool(sand_, bed_.cell_area());
+  sources_->act(bed_, time + 1.0 / scene().device.servo_rate, sand_.load() ? &tool : nullptr);
+}
+
 TickRecord TickLoop::step(const TickInput& tick) {
   if (sources_) pour(tick.time);
+  if (sand_.load()) sand_.load()->land(bed_, tick.time + 1.0 / scene().device.servo_rate);
   TickRecord record = read_device(tick);
   if (tick.hand.down) {
     if (tick.turns) turn_tool(tick.hand);
@@ -33,6 +58,7 @@ TickRecord TickLoop::step(const TickInput& tick) {
     lift();
     if (sand_.relaxation_is_due()) tick.relax();
   }
+  if (sand_.load()) record.carried = sand_.load()->mass();
   record.next = tick.next_hand();
   device_.feel(record);
   return record;
@@ -66,6 +92,11 @@ void TickLoop::displace(TickRecord& record, const TickInput& tick) {
   record.depth = interaction.depth;
   record.displaced_volume = interaction.displaced_volume;
   record.contact = interaction.contact;
+  if (sand_.load()) {
+    const LoadOnTool load = sand_.load_on_tool();
+    record.load = load.weight;
+    record.wrench.torque += load.torque;
+  }
   if (!floor_) return;
   const Eigen::Vector3d way_out = floor_->way_out(bed_, tip);
   record.floor_depth = length_of(way_out);
@@ -84,11 +115,19 @@ void TickLoop::lift() {
   tool_force_->lift();
 }
 
+bool TickLoop::end_spills() {
+  ToolLoad* const load = sand_.load();
+  if (!load) return false;
+  load->land(bed_, std::numeric_limits<double>::infinity());
+  return load->has_moved() || load->has_landed();
+}
+
 RelaxationOutcome TickLoop::relax(double time, const PassWatcher& watcher) {
   relaxer_->set_time(time);
   sand_.make_walls(bed_);
   check_plugin_law("displacement", scene().plugin_laws.displacement);
   const RelaxationOutcome outcome = relaxer_->relax(bed_, watcher);
+  sand_.relax_load(bed_, time);
   sand_.relaxed(bed_);
   if (sources_) sources_->settled();
   check_plugin_law("relaxation", scene().plugin_laws.relaxation);
@@ -99,7 +138,9 @@ bool TickLoop::relaxation_comes_due(std::int64_t tick) const {
   const RelaxationSettings& settings = scene().relaxation;
   const double servo_rate = scene().device.servo_rate;
   if (comes_due(tick, servo_rate, settings.rate)) return true;
-  return sources_ && sources_->unsettled() && settings.rate == 0.0 && settings.way > 0.0 &&
+  const bool by_itself = (sources_ && sources_->unsettled()) ||
+                         (sand_.load() && (!sand_.load()->carried().empty() || sand_.load()->has_landed()));
+  return by_itself && settings.rate == 0.0 && settings.way > 0.0 &&
          comes_due(tick, servo_rate, published_relaxation_rate);
 }
 

@@ -51,8 +51,14 @@ class TickLoop {
   void advance(const TickRecord& record);
   /// The tool touches nothing.
   void lift();
+  /// The sand on the tool; null: it carries none.
+  const ToolLoad* load() const { return sand_.load(); }
+  std::optional<LoadSurface> load_surface() const { return sand_.load_surface(); }
+  /// Lands what the tool spilled and still falls. Whether the bed or the tool has sand since that was not
+  /// brought to rest.
+  bool end_spills();
   /// A tick from this time [s] on without a hand: sources pour, which the scene must have.
-  void pour(double time) { sources_->act(bed_, time + 1.0 / scene().device.servo_rate); }
+  void pour(double time);
   /// None: the scene has none.
   std::optional<SandSources>& sources() { return sources_; }
   const std::optional<SandSources>& sources() const { return sources_; }

@@ -68,6 +68,7 @@ void check_size(const Scene& scene, const std::string& name) {
 const char* width_key(const ToolSettings& tool) {
   switch (tool.shape) {
     case ToolShape::box:
+    case ToolShape::shovel:
       return "tool.size";
     case ToolShape::plate:
       return tool.width < tool.thickness ? "tool.width" : "tool.thickness";

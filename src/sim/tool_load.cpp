@@ -1,0 +1,88 @@
+#include "sim/tool_load.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rules/force.h"
+#include "sim/sand_sources.h"
+
+namespace sandstroke {
+
+ToolLoad::ToolLoad(const RelaxationSettings& relaxation, double density, const UpperSide& upper)
+    : carried_(relaxation, upper), density_(density) {}
+
+void ToolLoad::take(const Tool& tool, double cell_area) {
+  if (tool.lifted().empty()) return;
+  for (const LiftedSand& one : tool.lifted()) lifted_.add(one.height * cell_area);
+  carried_.take(*tool.upper_side(), tool.lifted());
+  most_ = std::max(most_, carried_.volume());
+}
+
+void ToolLoad::take(const UpperSide& upper, const LiftedSand& caught, double cell_area) {
+  caught_.add(caught.height * cell_area);
+  carried_.take(upper, {caught});
+  most_ = std::max(most_, carried_.volume());
+}
+
+void ToolLoad::relax(const Tool& tool, HeightField& bed, const Eigen::Vector3d& tip, double time) {
+  const CarriedSand::Outcome outcome = carried_.relax(*tool.upper_side(), bed, tip);
+  ran_on_.add(outcome.ran_on);
+  spilled_.add(outcome.spilled);
+  most_ = std::max(most_, carried_.volume());
+  for (const CarriedSand::Spill& spill : outcome.spills) {
+    const double fall = SandSources::fall_time(spill.from, bed(spill.row, spill.col));
+    falling_.drop(spill.row, spill.col, spill.volume, time + fall);
+  }
+  has_landed_ = false;
+  constexpr double rounding = 1e-15;  // m^3
+  has_moved_ = outcome.ran_on + outcome.spilled > rounding;
+}
+
+LoadOnTool ToolLoad::on_tool(const UpperSide& upper, double level) const {
+  LoadOnTool load;
+  if (carried_.empty()) return load;
+  double part = 1.0;
+  if (level > -std::numeric_limits<double>::infinity()) {
+    double above = 0.0, whole = 0.0;
+    for (Eigen::Index i = 0; i < carried_.thickness().size(); ++i) {
+      const double here = carried_.thickness().data()[i];
+      if (here == 0.0) continue;
+      above += std::clamp(upper.top().data()[i] + here - level, 0.0, here);
+      whole += here;
+    }
+    part = above / whole;
+  }
+  const double per_volume = part * density_ * gravity;
+  const Eigen::Vector3d moment = upper.turned(carried_.moment());
+  load.weight = per_volume * carried_.volume();
+  load.torque = per_volume * Eigen::Vector3d(-moment.y(), moment.x(), 0.0);
+  return load;
+}
+
+double ToolLoad::given_volume() const {
+  return spilled_.value() - falling_.volume() - lifted_.value() - ran_on_.value() - caught_.value();
+}
+
+LoadLedger ToolLoad::ledger() const {
+  return {lifted_.value(),
+          ran_on_.value(),
+          caught_.value(),
+          spilled_.value(),
+          falling_.volume(),
+          carried_.volume(),
+          most_};
+}
+
+void ToolLoad::visit_state(StateVisitor& state) {
+  carried_.visit_state(state);
+  falling_.visit_state(state);
+  state.value("load.lifted", lifted_);
+  state.value("load.ran_on", ran_on_);
+  state.value("load.caught", caught_);
+  state.value("load.spilled", spilled_);
+  state.value("load.most", most_);
+  state.value("load.has_moved", has_moved_);
+  state.value("load.has_landed", has_landed_);
+}
+
+}  // namespace sandstroke
