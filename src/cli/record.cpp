@@ -181,6 +181,9 @@ std::optional<SceneFile> felt_scene(const RecordArguments& arguments) {
         "{}: has a [moisture], which record --feel does not know yet: a wall that fails takes longer than a "
         "tick; remove it from the scene",
         arguments.felt_scene);
+  if (scene.tool.carries)
+    throw_input_error("{}: has tool.carries, which record --feel does not know yet; remove it from the scene",
+                      arguments.felt_scene);
   if (!scene.sources.empty())
     throw_input_error(
         "{}: record --feel takes no [[source]], because its servo loop only moves what the tool moves; "

@@ -118,7 +118,7 @@ int render(const RenderArguments& arguments) {
   const fs::path output = default_output(arguments, shown.ending + ".png");
   check_picture_name(output);
   check_output(output, {arguments.run}, picture_output);
-  write_png(output, painter.draw(shown.surface, tool ? std::optional(shown.time) : std::nullopt));
+  write_png(output, painter.draw(shown.surface, tool ? std::optional(shown.time) : std::nullopt, shown.load));
   print_text("{}\n", output.string());
   return 0;
 }

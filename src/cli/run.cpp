@@ -93,6 +93,7 @@ void print_summary(const RunResult& r, const Scene& scene, const std::string& ou
   }
   for (const SourceLedger& source : r.sources)
     print_row(source.asked > 0.0 ? "sink" : "source", text_of(source));
+  if (r.load) print_row("on the tool", text_of(*r.load, scene.strength.density));
   print_row("sand moved",
             fmt::format("{:.6g} m^3; volume drift {:.1e} of it", r.moved_volume, r.volume_drift));
   if (is_moist(scene))

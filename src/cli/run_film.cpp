@@ -20,8 +20,9 @@ int draw_frames(const RunFile& run, const FrameLook& look,
   RunFrames frames(run);
   Progress progress("render");
   for (std::size_t k = 0; k < times.size(); ++k) {
-    const Image image =
-        painter.draw(frames.surface(static_cast<int>(k)), tool ? std::optional(times[k]) : std::nullopt);
+    const auto frame = static_cast<int>(k);
+    const Image image = painter.draw(frames.surface(frame), tool ? std::optional(times[k]) : std::nullopt,
+                                     run.load_surface(frame));
     if (!take(k, image) || interrupted()) return 128 + interrupted();
     progress.update(static_cast<double>(k + 1) / static_cast<double>(times.size()));
   }

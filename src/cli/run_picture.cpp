@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "io/run_file.h"
 #include "render/change_picture.h"
+#include "render/load_mesh.h"
 #include "sim/scene_moisture.h"
 #include "tool/tool_surface.h"
 
@@ -32,8 +33,10 @@ CellRange RunPainter::stroke_cells() {
                      initial_.highest());
 }
 
-Image RunPainter::draw(const HeightField& surface, std::optional<double> tool_time) {
+Image RunPainter::draw(const HeightField& surface, std::optional<double> tool_time,
+                       const std::optional<LoadSurface>& load) {
   subject_.tool = tool_time ? std::optional(tool_at(*tool_time)) : std::nullopt;
+  if (subject_.tool && load) subject_.tool->load = std::make_shared<TriangleMesh>(load_mesh(*load));
   HeightGrid difference;
   if (subject_.view.style == RenderStyle::difference) difference = surface.grid() - initial_.grid();
   subject_.difference = &difference;

@@ -19,9 +19,10 @@ class RunPainter {
   /// contour_interval [m]: 0 chooses a round one. Error: input or io, as in RunFile and HeightFieldRenderer.
   RunPainter(const RunFile& run, const ViewSettings& view, double contour_interval = 0.0);
 
-  /// Draws a surface and, if given `tool_time` [s], the tool at that time (at the last tick before it).
-  /// Error: input, if the run has no trace.
-  Image draw(const HeightField& surface, std::optional<double> tool_time = std::nullopt);
+  /// Draws a surface and, if given `tool_time` [s], the tool at that time (at the last tick before it), with
+  /// the sand on it, if given. Error: input, if the run has no trace.
+  Image draw(const HeightField& surface, std::optional<double> tool_time = std::nullopt,
+             const std::optional<LoadSurface>& load = std::nullopt);
 
  private:
   CellRange stroke_cells();

@@ -16,7 +16,7 @@ RunSurface surface_named(const RunFile& run, const std::string& name, const char
   if (k < 0 || k >= static_cast<int>(times.size()))
     throw_input_error("{}: has no frame {}; take 0 to {}", run.name(), k, times.size() - 1);
   const auto at = static_cast<std::size_t>(k);
-  return {RunFrames(run).surface(k), times[at], "_" + frame_name(at), true};
+  return {RunFrames(run).surface(k), times[at], "_" + frame_name(at), true, run.load_surface(k)};
 }
 
 std::vector<double> frame_times(const RunFile& run) {

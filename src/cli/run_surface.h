@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ struct RunSurface {
   double time = 0.0;      ///< s; the final one: infinity
   std::string ending;     ///< for file names, before the extension: "", "_initial", "_frame_0003"
   bool is_frame = false;  ///< it was kept during the run
+  std::optional<LoadSurface> load = {};  ///< the sand on the tool then
 };
 
 /// Reads a surface by name: final, initial, or a frame's number. Error: input, which lists `choices`, or says

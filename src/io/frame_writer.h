@@ -34,6 +34,7 @@ class FrameWriter {
   std::vector<XdmfStep> steps(double end) const;
 
   const BedGeometry& bed() const { return bed_; }
+  int count() const { return static_cast<int>(times_.size()); }
 
   static std::string changed(int k);
   static std::string height(int k);

@@ -218,6 +218,16 @@ std::vector<SourceLedger> RunFile::sources() const {
   return sources;
 }
 
+std::string load_dataset(int k) { return fmt::format("/tool/sand/{:06}", k); }
+
+std::optional<LoadSurface> RunFile::load_surface(int k) const {
+  const std::string name = load_dataset(k);
+  if (!file_.has(name)) return {};
+  return LoadSurface{file_.grid(name),
+                     file_.cell_size(name),
+                     {file_.number_attribute(name, "along_x"), file_.number_attribute(name, "along_y")}};
+}
+
 std::string RunFile::scene_text() const { return file_.text("/scene"); }
 
 SceneFile RunFile::scene() const {

@@ -18,6 +18,8 @@ namespace sandstroke {
 inline constexpr const char* error_group = "/error_estimate";
 /// The group of the columns that visit_source_fields() names, over its scale `source`.
 inline constexpr const char* source_group = "/sources";
+/// Where a run file has the sand on the tool in frame k, if any lies there.
+std::string load_dataset(int k);
 
 /// Reads a run file (HDF5). Error: io, if it cannot be opened; input, if it is no run file or lacks what is
 /// asked for.
@@ -47,6 +49,8 @@ class RunFile {
   std::vector<double> frame_times() const;
   /// Changes frame k - 1 (for k = 0 the initial surface) into frame k. Returns how many parts changed.
   int apply_frame(int k, HeightField& surface) const;
+  /// The sand on the tool in frame k; none: there was none.
+  std::optional<LoadSurface> load_surface(int k) const;
   /// The estimated error, if the run was asked for it, and the error of each cell's height [m], if that was
   /// asked for, too. The time that the estimate took is not stored.
   std::optional<ErrorEstimate> error_estimate() const;

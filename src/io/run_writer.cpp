@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 #include <type_traits>
+#include <utility>
 
 #include "core/hash.h"
 #include "core/output_file.h"
@@ -216,8 +217,28 @@ void RunWriter::flush() {
 }
 
 void RunWriter::on_frame(double time, const HeightField& surface) {
+  if (!std::exchange(has_load_, false)) remove_later_load();
   frames_.add(time, surface);
   write_in_time();
+}
+
+/// A run that goes on from an earlier state has written this frame's before.
+void RunWriter::remove_later_load() {
+  if (const std::string name = load_dataset(frames_.count()); file_.has(name)) file_.remove(name);
+}
+
+void RunWriter::on_load(const LoadSurface& load) {
+  const std::string name = load_dataset(frames_.count());
+  remove_later_load();
+  file_.write(name, load.height, Compression::fast);
+  has_load_ = true;
+  file_.attribute(name, "cell_size", load.cell_size);
+  file_.attribute(name, "along_x", load.along.x());
+  file_.attribute(name, "along_y", load.along.y());
+  file_.describe(
+      name, "m",
+      "height of the sand on the tool above its tip, in the middle of the grid, whose x axis points "
+      "along (along_x, along_y) of the bed; not a number where there is none");
 }
 
 void RunWriter::visit_state(StateVisitor& state) {

@@ -32,6 +32,7 @@ class RunWriter : public SimulationObserver {
   void on_tick(const TickRecord& tick) override;
   void on_relaxation(const RelaxationRecord& relaxation) override;
   void on_frame(double time, const HeightField& surface) override;
+  void on_load(const LoadSurface& load) override;
   /// What is kept is in the file by then; what came later is removed when it is put back.
   void visit_state(StateVisitor& state) override;
 
@@ -47,6 +48,7 @@ class RunWriter : public SimulationObserver {
   void begin(const Simulation& simulation, const ViewSettings& view, const std::string& stroke_hash,
              const std::string& scene_file);
   void write_in_time();
+  void remove_later_load();
   void write_rows();
   void flush();
 
@@ -59,6 +61,7 @@ class RunWriter : public SimulationObserver {
   std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();
   std::vector<TickRecord> ticks_;  // not written yet
   std::vector<RelaxationRecord> relaxations_;
+  bool has_load_ = false;  // the next frame has sand on the tool
   FrameWriter frames_;
   double seconds_ = 0.0;  // of the whole run
 };

@@ -43,6 +43,7 @@ class TickArrays {
     make("depth", depth_, 1);
     make("level", level_, 1);
     make("contact", contact_, 1);
+    make("carried", carried_, 1);
     make("displaced_volume", displaced_volume_, 1);
     make("position", position_, 3);
   }
@@ -57,13 +58,14 @@ class TickArrays {
     depth_[row] = tick.depth;
     level_[row] = tick.level;
     contact_[row] = tick.contact;
+    carried_[row] = tick.carried;
     displaced_volume_[row] = tick.displaced_volume;
     put(position_, tick.device_position);
   }
   py::dict arrays() const { return arrays_; }
 
  private:
-  double *time_, *force_, *sand_force_, *torque_, *depth_, *level_, *displaced_volume_, *position_;
+  double *time_, *force_, *sand_force_, *torque_, *depth_, *level_, *carried_, *displaced_volume_, *position_;
   bool* contact_;
   py::dict arrays_;
 };

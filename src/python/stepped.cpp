@@ -103,6 +103,7 @@ void add_stepped(py::module_& module) {
                     "Depth of the tip below the sand's level [m]; negative above it.")
       .def_readonly("level", &TickRecord::level, "Height of the sand under the tool [m]; nan: there is none.")
       .def_readonly("contact", &TickRecord::contact, "Whether the tool touches sand.")
+      .def_readonly("carried", &TickRecord::carried, "Sand on the tool [kg].")
       .def_readonly("displaced_volume", &TickRecord::displaced_volume,
                     "Volume of the sand displaced in the tick [m^3].")
       .def_property_readonly(

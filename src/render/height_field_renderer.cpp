@@ -94,7 +94,7 @@ class HeightFieldRenderer::Drawing {
   BareTexture bare_;
   TileMesh tiles_;
   BedBox box_;
-  ToolMesh tool_;
+  ToolMesh tool_, load_;
   ShaderProgram sand_, map_, wall_, ball_, surroundings_;
   std::optional<ShaderProgram> sand_on_floor_, map_on_floor_;  // once they are needed
   GlObject sequential_, diverging_, no_vertices_;
@@ -292,11 +292,16 @@ void HeightFieldRenderer::Drawing::draw_wall(RenderStyle style, const Camera& ca
 void HeightFieldRenderer::Drawing::draw_tool(const ToolBody& tool, const Camera& camera, const Sun& sun) {
   set_light(ball_, camera, sun);
   set_tool(ball_, tool);
+  ball_.set("sandy", 0.0);
   ball_.set("facets", tool.mesh ? 1.0 : 0.0);
   ball_.set("scale", tool.mesh ? 1.0 : tool.radius);
   ball_.set("offset", tool.mesh ? tool.tip : tool.centre());
   tool_.show(tool.mesh);
   tool_.draw();
+  if (!tool.load) return;
+  ball_.set("sandy", 1.0);
+  load_.show(tool.load);
+  load_.draw();
 }
 
 Image HeightFieldRenderer::Drawing::render(const HeightField& surface, const RenderSubject& subject) {

@@ -13,6 +13,8 @@ Eigen::AlignedBox3d ToolBody::box() const {
   if (!mesh) return box;
   box.setEmpty();
   for (const Eigen::Vector3d& vertex : mesh->vertices) box.extend(tip + vertex);
+  if (load)
+    for (const Eigen::Vector3d& vertex : load->vertices) box.extend(tip + vertex);
   return box;
 }
 

@@ -18,6 +18,7 @@ struct ToolBody {
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();       ///< m
   double radius = 0.01;                                ///< m
   std::shared_ptr<const TriangleMesh> mesh = nullptr;  ///< turned, with the tip at the origin; null: a sphere
+  std::shared_ptr<const TriangleMesh> load = nullptr;  ///< the sand on it, likewise; null: none
   Eigen::Vector3d centre() const { return tip + radius * Eigen::Vector3d::UnitZ(); }
   Eigen::AlignedBox3d box() const;  ///< m
   bool operator==(const ToolBody&) const = default;

@@ -300,8 +300,9 @@ void main() {
 }
 
 std::string tool_fragment() {
-  return std::string(version) + light + R"(
+  return std::string(version) + light + noise + R"(
 uniform vec4 tool;
+uniform float sandy;         // 1: the sand on the tool
 uniform float facets;        // 1: flat triangles; 0: a sphere
 in vec3 world;
 out vec4 colour;
@@ -310,6 +311,14 @@ void main() {
   if (facets > 0.5) {
     normal = normalize(cross(dFdx(world), dFdy(world)));
     if (dot(normal, viewer) < 0.0) normal = -normal;
+  }
+  if (sandy > 0.5) {
+    float pixel = max(length(dFdx(world)), length(dFdy(world)));
+    vec3 grains = gradient_noise((world.xy - tool.xy) / 0.0014, 70u) * (1.0 - smoothstep(0.25, 0.5, pixel / 0.0014));
+    normal = normalize(normal - vec3(0.12 * grains.yz, 0.0));
+    vec3 received = sun_colour * max(dot(normal, sun_direction), 0.0) + ambient(normal);
+    colour = vec4(tone(sand_albedo(world.z) * (1.0 + 0.28 * grains.x) * received), 1.0);
+    return;
   }
   vec3 mirror = reflect(-viewer, normal), halfway = normalize(viewer + sun_direction);
   float edge = pow(1.0 - max(dot(normal, viewer), 0.0), 5.0);

@@ -187,7 +187,8 @@ def test_many_are_stepped_at_once_with_the_bits_of_each(small, threads):
         for k in range(40):
             tick = one.tick(hands[i, k], (0.01, 0.0, 0.0), down=down[i, k],
                             orientation=(0.0, 0.0, np.sin(0.1), np.cos(0.1)))
-            for name in ("time", "force", "sand_force", "torque", "depth", "level", "contact", "displaced_volume", "position"):
+            for name in ("time", "force", "sand_force", "torque", "depth", "level", "contact", "carried",
+                         "displaced_volume", "position"):
                 assert np.array_equal(getattr(ticks, name)[i, k], getattr(tick, name), equal_nan=True), name
         assert np.array_equal(one.heights, sims[i].heights)
     assert start.time == 0.03

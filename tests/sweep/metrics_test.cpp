@@ -26,6 +26,7 @@ RunResult a_run() {
                 .least_passivity_margin = -2.5};
   run.displaced_volume = 1e-6;
   run.relaxation.failed_volume = 2e-7;
+  run.load = LoadLedger{.spilled = 3e-7, .most = 4e-7};
   run.moved_volume = 3e-6;
   run.volume_drift = 1e-13;
   run.max_depth = 0.004;
@@ -46,36 +47,17 @@ std::map<std::string, double> values(const RunResult& run, const std::optional<F
 
 TEST(Metrics, EachIsItsOwnNumberOfTheRun) {
   const std::map<std::string, double> expected = {
-      {"max_force", 3.5},
-      {"mean_force", 1.25},
-      {"work", 0.75},
-      {"returned_energy", 0.0625},
-      {"passivity_margin", -2.5},
-      {"saturated_share", 0.05},
-      {"max_depth", 0.004},
-      {"displaced_volume", 1e-6},
-      {"moved_volume", 3e-6},
-      {"failed_volume", 2e-7},
-      {"volume_drift", 1e-13},
-      {"furrow_depth", 0.003},
-      {"furrow_width", 0.02},
-      {"rampart_height", 0.001},
-      {"slope_mean", 12.0},
-      {"slope_max_geometric", 29.0},
-      {"slope_max_law", 28.0},
-      {"slope_at_talus", 0.4},
-      {"passes", 77.0},
-      {"residual", 0.011},
-      {"golden_max", 0.005},
-      {"golden_rms", 0.0007},
-      {"golden_volume", -2e-6},
-      {"wall_seconds", 0.25},
-      {"real_time_factor", 16.0},
-      {"error_share", 0.07},
-      {"error_height_rms", 8e-5},
-      {"error_height_max", 9e-5},
-      {"error_force_rms", 0.11},
-      {"error_force_max", 0.13},
+      {"max_force", 3.5},          {"mean_force", 1.25},       {"work", 0.75},
+      {"returned_energy", 0.0625}, {"passivity_margin", -2.5}, {"saturated_share", 0.05},
+      {"max_depth", 0.004},        {"displaced_volume", 1e-6}, {"moved_volume", 3e-6},
+      {"failed_volume", 2e-7},     {"carried_volume", 4e-7},   {"spilled_volume", 3e-7},
+      {"volume_drift", 1e-13},     {"furrow_depth", 0.003},    {"furrow_width", 0.02},
+      {"rampart_height", 0.001},   {"slope_mean", 12.0},       {"slope_max_geometric", 29.0},
+      {"slope_max_law", 28.0},     {"slope_at_talus", 0.4},    {"passes", 77.0},
+      {"residual", 0.011},         {"golden_max", 0.005},      {"golden_rms", 0.0007},
+      {"golden_volume", -2e-6},    {"wall_seconds", 0.25},     {"real_time_factor", 16.0},
+      {"error_share", 0.07},       {"error_height_rms", 8e-5}, {"error_height_max", 9e-5},
+      {"error_force_rms", 0.11},   {"error_force_max", 0.13},
   };
   EXPECT_EQ(values(a_run(), golden), expected);
 }

@@ -174,6 +174,7 @@ class Ticks:
     depth: npt.NDArray[Any]
     level: npt.NDArray[Any]
     contact: npt.NDArray[Any]
+    carried: npt.NDArray[Any]
     displaced_volume: npt.NDArray[Any]
     position: npt.NDArray[Any]
 

@@ -2,9 +2,11 @@
 // their ranges.
 #include <spdlog/fmt/fmt.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <random>
 
+#include "core/angle.h"
 #include "haptics/passivity.h"
 #include "validation/stress/hostile_grounds.h"
 #include "validation/stress/judged_run.h"
@@ -117,6 +119,22 @@ class AnyScene {
       if (chance(0.8)) at = inner_place();
     }
     stroke->gap_threshold = 1.0;
+    if (any_shape && chance(0.4)) draw_load();
+  }
+
+  void draw_load() {
+    ToolSettings& tool = scene.tool;
+    tool.carries = true;
+    tool.shape = one_of({tool.shape, ToolShape::shovel, ToolShape::bowl});
+    tool.height = 0.02;
+    tool.thickness = real(1.6, 3.5) * size_;
+    const double most = one_of({0.0, 10.0, 40.0, 80.0});  // deg, of tilt
+    for (std::size_t i = 0; i < stroke->time.size(); ++i) {
+      const Eigen::Vector3d axis(real(-1.0, 1.0), real(-1.0, 1.0), 0.0);
+      const Eigen::Quaterniond tilt(
+          Eigen::AngleAxisd(to_radians(real(0.0, most)), (axis + Eigen::Vector3d(0.01, 0, 0)).normalized()));
+      stroke->orientation.push_back(tilt.coeffs());
+    }
   }
 
   void draw_sources() {
