@@ -49,7 +49,7 @@ TEST(CliCarry, TellsWhatWasLiftedAndSpilled) {
     most = std::max(most, tick.carried);
     heaviest = std::max(heaviest, tick.load);
   }
-  EXPECT_NEAR(most, 1600.0 * load["most"].get<double>(), 1e-3 * most);
+  EXPECT_NEAR(most, 1600.0 * load["most"].get<double>(), 0.05 * most);
   EXPECT_NEAR(heaviest, 9.81 * most, 0.2 * heaviest);
   // Frames have the sand on the tool where there is some.
   int with_load = 0;
@@ -94,7 +94,7 @@ TEST(CliCarry, IsRefusedByOneSentence) {
   refused({"relaxation.law=paper"}, "where sand lies on a tool (tool.carries)");
   refused({"tool.thickness=0.004"}, "sand would run through such a wall");
   refused({"tool.thickness=0.03"}, "leaves no room in the shovel");
-  refused({"tool.orientation=[0,90,0]"}, "tool.carries: the tool's upper side is no height field");
+  refused({"tool.orientation=[90,0,0]"}, "tool.carries: the tool's upper side is no height field");
   const ProgramResult felt = run_program({"record", "--check", "--feel", "shovel.toml"}, folder);
   EXPECT_EQ(felt.exit_code, 2);
   EXPECT_NE(felt.err.find("tool.carries, which record --feel does not know yet"), std::string::npos)
@@ -103,7 +103,7 @@ TEST(CliCarry, IsRefusedByOneSentence) {
 
 TEST(CliCarry, WarnsOfSandThatWouldSlideOff) {
   const fs::path folder = folder_of_shovel();
-  std::string csv = "t,x,y,z\n";
+  std::string csv = "t [s],x [m],y [m],z [m]\n";
   for (int k = 0; k <= 2000; ++k) {
     const double t = 1e-3 * k, z = std::min(-0.03 + 0.2 * t, 0.05);
     const double x = k < 1000 ? 0.0 : 0.03 * std::sin(25.0 * (t - 1.0));
