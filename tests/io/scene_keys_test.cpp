@@ -153,6 +153,7 @@ const std::vector<KeyCase> cases = {
     {"tool.radius=0.043", [](S s) { return s.tool.radius == 0.043; }},
     {"tool.profile=sphere", [](S s) { return s.tool.profile == ToolProfile::sphere; }},
     {"tool.solid=true", [](S s) { return s.tool.solid; }},
+    {"tool.carries=true", [](S s) { return s.tool.carries; }, shape("box")},
     {"bed.shape=round", [](S s) { return s.bed.shape == BedShape::round; }},
     {"displacement.deposit=ahead", [](S s) { return s.displacement.deposit == Deposit::ahead; }},
     {"displacement.distance=1.31", [](S s) { return s.displacement.distance == 1.31; }, outward},

@@ -153,7 +153,7 @@ TEST(SceneToml, EveryKeyOfTheTableIsReadWithItsDefaultJustWhereItSaysThatItAppli
     }
   }
   EXPECT_GT(keys, 50);
-  EXPECT_EQ(conditional, 47);
+  EXPECT_EQ(conditional, 48);
 }
 
 TEST(SceneToml, AKeyThatDoesNotApplyIsToldWhereItWould) {
@@ -194,7 +194,9 @@ TEST(SceneToml, AnotherChoiceLeavesOutWhatTheFileSetForTheOldOne) {
             "bed.surface.amplitude, bed.surface.wavelength are left out, because they apply only where "
             "bed.surface.kind is noise or ripples"},
            {{"tool.shape=sphere"},
-            "tool.thickness, tool.width are left out, because they apply only where tool.shape is plate"},
+            "tool.thickness is left out, because it applies only where tool.shape is plate or shovel or "
+            "bowl; "
+            "tool.width is left out, because it applies only where tool.shape is plate"},
            {{"force.law=paper"},
             "force.friction_angle is left out, because it applies only where force.law is"},
            {{"device.model=kinematic"}, "device.delay is left out"},

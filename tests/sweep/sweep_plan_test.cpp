@@ -221,7 +221,7 @@ TEST_F(APlan, OverKindsNamesPerKindWhatIsLeftOut) {
       (std::vector<std::string>{
           "tool.shape = sphere: tool.width is left out, because it applies only where tool.shape is plate",
           "tool.shape = plate: tool.radius is left out, because it applies only where tool.shape is "
-          "sphere or cylinder or cone or rake",
+          "sphere or cylinder or cone or rake or bowl",
           "force.law = rft: force.k_s is left out, because it applies only where force.law is paper"}));
   EXPECT_EQ(plan.scene_of(0).tool.radius, 0.02);
   EXPECT_EQ(plan.scene_of(3).tool.width, 0.05);
