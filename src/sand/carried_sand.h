@@ -19,7 +19,7 @@ struct LoadSurface {
 
 /// The layer of sand that lies on a tool and goes with it. It rests on the tool's upper side as on a floor,
 /// by the bed's own law of relaxation; what runs over the rim falls, and what stands beside the tool and
-/// higher runs onto it. Sand at rest keeps its bits as the tool goes, turns about the vertical or is held.
+/// higher runs onto it. Sand at rest keeps its bits as the tool goes, turns about the vertical or stays.
 class CarriedSand {
  public:
   CarriedSand(const RelaxationSettings& relaxation, const UpperSide& upper);

@@ -142,7 +142,7 @@ TEST(CarriedSand, StaysUpToItsTalusAndLeavesBeyond) {
     EXPECT_LT(carrying.sand->volume(), before) << tilt;
     EXPECT_GT(carrying.sand->volume(), 0.0);
     before = carrying.sand->volume();
-    // At rest to the bit for as long as it is held so.
+    // At rest to the bit for as long as it stays so.
     for (int i = 0; i < 30; ++i) carrying.put({0.0, 0.0, 0.06}, about_y(tilt));
     const HeightGrid at_rest = carrying.sand->thickness();
     for (int i = 0; i < 30; ++i) carrying.put({0.0, 0.0, 0.06}, about_y(tilt));
