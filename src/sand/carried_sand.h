@@ -17,8 +17,8 @@ struct LoadSurface {
   Eigen::Vector2d along;  ///< the grid's x axis, on the bed's
 };
 
-/// The layer of sand that lies on a tool and goes with it. It rests on the tool's upper side as on a floor,
-/// by the bed's own law of relaxation; what runs over the rim falls, and what stands beside the tool and
+/// The sand that lies on a tool and goes with it. It rests on the tool's upper side as on a floor,
+/// by the law of relaxation of the bed; what runs over the rim falls, and what stands beside the tool and
 /// higher runs onto it. Sand at rest keeps its bits as the tool goes, turns about the vertical or stays.
 class CarriedSand {
  public:
@@ -51,7 +51,7 @@ class CarriedSand {
     double spilled = 0.0;            ///< m^3, that the tool lost
     double ran_on = 0.0;             ///< m^3, that it gained
   };
-  /// Brings the layer to rest on the tool with its tip here [m]. Takes what runs on from the bed, which must
+  /// Brings it to rest on the tool with its tip here [m]. Takes what runs on from the bed, which must
   /// not be a wall there; does not give it the spills.
   Outcome relax(const UpperSide& upper, HeightField& bed, const Eigen::Vector3d& tip);
 
@@ -92,7 +92,7 @@ class CarriedSand {
   // As the tool is turned now:
   int lies_on_ = -1;  // the revision of the upper side
   bool is_laid_out_ = false;
-  HeightField tray_;  // m above the tip: the layer on the tool, and the sand beside it
+  HeightField tray_;  // m above the tip: the sand on the tool, and beside it
   Copied<Relaxer> relaxer_;
   std::vector<Beside> beside_;
   double deep_ = 0.0;  // m above the tip: there is all sand beside the tool that is far below its rim

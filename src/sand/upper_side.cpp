@@ -191,7 +191,7 @@ UpperSide::Parts UpperSide::parts_at(const Vector2d& in_grid, double height) con
 void UpperSide::share_columns() {
   shares_.clear();
   // Columns lie over fewer cells than before. Each is taken in four parts, whose sand goes to the four cells
-  // around them: so an even layer stays even within 1 %.
+  // around them: what is even stays even within 1 %.
   std::vector<Part> cells;
   const auto add = [&](const Part& one) {
     for (Part& known : cells)
