@@ -14,7 +14,7 @@ nlohmann::ordered_json run_summary(const RunResult& result, const Scene& scene, 
 /// "poured 0.1 kg, landed ..." in the words of people.
 std::string text_of(const SourceLedger& source);
 
-/// "lifted 0.1 kg ..." in the words of people. density [kg/m^3]: of the sand in bulk.
+/// "took up 0.1 kg, carried ..." in the words of people. density [kg/m^3]: of the sand in bulk.
 std::string text_of(const LoadLedger& load, double density);
 
 /// [{"poured": ...}, ...]

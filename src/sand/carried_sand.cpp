@@ -7,6 +7,7 @@
 
 #include "core/compensated_sum.h"
 #include "rules/talus.h"
+#include "sand/cells_around.h"
 #include "sand/ground.h"
 
 namespace sandstroke {
@@ -25,7 +26,7 @@ CarriedSand::CarriedSand(const RelaxationSettings& relaxation, const UpperSide& 
 void CarriedSand::lie_on(const UpperSide& upper) {
   if (lies_on_ == upper.revision()) return;
   if (!empty()) {
-    change_columns(shares_);
+    change_columns();
     thickness_ = columns_;
     if (upper.is_tilted()) {
       thickness_.setZero();
@@ -75,22 +76,22 @@ void CarriedSand::take(const UpperSide& upper, const std::vector<LiftedSand>& li
 
 /// A cell that lost sand took the same fraction from each column over it. What a cell gained goes to the
 /// columns over it by their parts.
-void CarriedSand::change_columns(const std::vector<UpperSide::Share>& shares) {
-  if (shares.empty()) {
+void CarriedSand::change_columns() {
+  if (shares_.empty()) {
     columns_ = thickness_;
     return;
   }
   if ((thickness_ == from_columns_).all()) return;
   const auto size = static_cast<std::size_t>(thickness_.size());
   std::vector<double> parts(size, 0.0), lost(size, 0.0), gained(size, 0.0);
-  for (const UpperSide::Share& share : shares) parts[share.cell] += share.part;
+  for (const UpperSide::Share& share : shares_) parts[share.cell] += share.part;
   for (std::size_t cell = 0; cell < size; ++cell) {
     const double before = from_columns_.data()[cell], difference = thickness_.data()[cell] - before;
     if (difference < 0.0) lost[cell] = std::min(1.0, -difference / before);
     if (difference > 0.0) gained[parts[cell] > 0.0 ? cell : nearest_of(parts, cell)] += difference;
   }
   HeightGrid changed = columns_;
-  for (const UpperSide::Share& share : shares) {
+  for (const UpperSide::Share& share : shares_) {
     double& column = changed.data()[share.column];
     column -= share.part * lost[share.cell] * columns_.data()[share.column];
     if (gained[share.cell] > 0.0) column += gained[share.cell] * share.part / parts[share.cell];
@@ -171,19 +172,13 @@ void CarriedSand::look_beside(const UpperSide& upper, const HeightField& bed, co
     const double col = bed.col_at(place.x()), row = bed.row_at(place.y());
     one.count = 0;
     double whole = 0.0, sum = 0.0;
-    if (row > -1.0 && row < bed.rows() && col > -1.0 && col < bed.cols()) {
-      const int col_begin = static_cast<int>(std::floor(col)), row_begin = static_cast<int>(std::floor(row));
-      for (int corner = 0; corner < 4; ++corner) {
-        const int r = row_begin + corner / 2, c = col_begin + corner % 2;
-        const double part = (corner / 2 ? row - row_begin : 1.0 - (row - row_begin)) *
-                            (corner % 2 ? col - col_begin : 1.0 - (col - col_begin));
-        if (!(part > 0.0) || r < 0 || r >= bed.rows() || c < 0 || c >= bed.cols() || bed.is_wall(r, c))
-          continue;
+    if (row > -1.0 && row < bed.rows() && col > -1.0 && col < bed.cols())
+      visit_cells_around(row, col, [&](int r, int c, double part) {
+        if (r < 0 || r >= bed.rows() || c < 0 || c >= bed.cols() || bed.is_wall(r, c)) return;
         one.bed[one.count++] = {r, c, part};
         whole += part;
         sum += part * bed(r, c);
-      }
-    }
+      });
     for (int i = 0; i < one.count; ++i) one.bed[i].part /= whole;
     one.start = one.count > 0 ? std::max(sum / whole - tip.z(), deep_) : deep_;
     is_near = is_near || one.start > one.rim - below_rim;

@@ -76,7 +76,7 @@ class CarriedSand {
   void look_beside(const UpperSide& upper, const HeightField& bed, const Eigen::Vector3d& tip);
   bool sand_may_run_on() const;
   void set_walls(const UpperSide& upper);
-  void change_columns(const std::vector<UpperSide::Share>& shares);
+  void change_columns();
   std::size_t nearest_of(const std::vector<double>& parts, std::size_t cell) const;
   void know_sums(const UpperSide& upper);
   double take_from_bed(HeightField& bed, const Beside& one, double height) const;

@@ -6,6 +6,7 @@
 #include "core/elementary.h"
 #include "core/error.h"
 #include "rules/force.h"
+#include "sand/cells_around.h"
 #include "tool/tool_surface.h"
 #include "tool/triangle_samples.h"
 
@@ -23,9 +24,8 @@ BedGeometry grid_around(const TriangleMesh& surface, double cell_size) {
   const double half = std::ceil(farthest / cell_size) + UpperSide::margin;
   if (!(2.0 * half <= most_cells))
     throw_input_error(
-        "tool.carries: the tool reaches {:.3g} m from its tip, which are {:.0f} cells; take a smaller tool "
-        "or "
-        "fewer bed.cells",
+        "tool.carries: the tool reaches {:.3g} m from its tip, which are {:.0f} cells; take a smaller "
+        "tool or fewer bed.cells",
         farthest, half);
   return {static_cast<int>(2.0 * half), static_cast<int>(2.0 * half), cell_size};
 }
@@ -59,10 +59,9 @@ void check_no_overhang(const TriangleMesh& surface, const BedGeometry& grid) {
         inside += line[i].enters;
         if (inside != 0 || line[i + 1].z - line[i].z <= least_gap) continue;
         throw_input_error(
-            "tool.carries: the tool's upper side is no height field: {:.3g} m above its tip, at x = {:.3g} "
-            "m, "
-            "y = {:.3g} m from it, a part hangs over another part, where sand could lie in between; turn it "
-            "by tool.orientation, take another shape, or remove tool.carries",
+            "tool.carries: the tool's upper side is no height field: {:.3g} m above its tip, at "
+            "x = {:.3g} m, y = {:.3g} m from it, a part hangs over another part, where sand could lie in "
+            "between; turn it by tool.orientation, take another shape, or remove tool.carries",
             line[i + 1].z, grid.x_of(col), grid.y_of(row));
       }
     }
@@ -160,24 +159,19 @@ UpperSide::Cell UpperSide::nearest_within(int reach, int at_row, int at_col, con
 
 UpperSide::Parts UpperSide::parts_at(const Vector2d& in_grid, double height) const {
   // What is as steep as this is no wall.
-  const double steepness = tilted_ ? std::sqrt(std::max(1.0 - tilt_(2, 2) * tilt_(2, 2), 0.0)) /
-                                         std::max(tilt_(2, 2), 0.1)
-                                   : 0.0,
-               level = 1.5 * (1.0 + steepness) * grid_.cell_size(), c = grid_.col_at(in_grid.x()),
-               r = grid_.row_at(in_grid.y());
-  const int col_begin = static_cast<int>(std::floor(c)), row_begin = static_cast<int>(std::floor(r));
+  const double steepness =
+      tilted_ ? std::sqrt(std::max(1.0 - tilt_(2, 2) * tilt_(2, 2), 0.0)) / std::max(tilt_(2, 2), 0.1) : 0.0;
+  const double level = 1.5 * (1.0 + steepness) * grid_.cell_size();
   Parts parts;
   double whole = 0.0;
-  for (int corner = 0; corner < 4; ++corner) {
-    const int row = row_begin + corner / 2, col = col_begin + corner % 2;
-    const double part = (corner / 2 ? r - row_begin : 1.0 - (r - row_begin)) *
-                        (corner % 2 ? c - col_begin : 1.0 - (c - col_begin));
-    if (!(part > 0.0) || row < 0 || row >= grid_.rows() || col < 0 || col >= grid_.cols() ||
-        !(std::abs(top()(row, col) - height) <= level))
-      continue;
-    parts.of[static_cast<std::size_t>(parts.count++)] = {row * grid_.cols() + col, part};
-    whole += part;
-  }
+  visit_cells_around(grid_.row_at(in_grid.y()), grid_.col_at(in_grid.x()),
+                     [&](int row, int col, double part) {
+                       if (row < 0 || row >= grid_.rows() || col < 0 || col >= grid_.cols() ||
+                           !(std::abs(top()(row, col) - height) <= level))
+                         return;
+                       parts.of[static_cast<std::size_t>(parts.count++)] = {row * grid_.cols() + col, part};
+                       whole += part;
+                     });
   if (parts.count == 0) {
     const Cell cell = nearest(in_grid, height);
     parts.of[0] = {cell.row * grid_.cols() + cell.col, 1.0};

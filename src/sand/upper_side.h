@@ -39,8 +39,6 @@ class UpperSide {
   int revision() const { return tilted_ ? tilts_ : 0; }
   /// The highest points [m above the tip]; nowhere beside the tool.
   const HeightGrid& top() const { return tilted_ ? tilted_top_ : own_top_; }
-  /// The same before the hand tilts the tool: columns stand where there is one.
-  const HeightGrid& own_top() const { return own_top_; }
   bool covers(int row, int col) const { return top()(row, col) != nowhere; }
 
   /// From the tip, along the bed's axes or the grid's [m].

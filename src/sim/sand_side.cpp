@@ -80,7 +80,7 @@ Interaction SandSide::displace_at(HeightField& bed, const Eigen::Vector3d& tip,
   const bool on_floor = tool_->footprint().highest_floor() > tip.z() + tool_->lowest();
   if (interaction.contact || tool_->may_touch_heaps() || on_floor)
     interaction.displaced_volume = displace_sand(bed, tip, motion);
-  if (load_) load_->take(*tool_, bed.cell_area());
+  if (load_) load_->take(*tool_);
   interaction.contact |= tool_->touches() || (on_floor && interaction.displaced_volume > 0.0);
   tip_ = tip;
   contact_ = interaction.contact;
@@ -104,8 +104,8 @@ double SandSide::top_at(const Eigen::Vector2d& place) const {
   return upper.covers(r, c) ? tip_.z() + upper.top()(r, c) + load_->carried().thickness()(r, c) : beside;
 }
 
-void SandSide::catch_sand(const Eigen::Vector2d& place, double height, double cell_area) {
-  load_->take(*tool_->upper_side(), {place - tip_.head<2>(), height}, cell_area);
+void SandSide::catch_sand(const Eigen::Vector2d& place, double height) {
+  load_->take(*tool_->upper_side(), {place - tip_.head<2>(), height});
 }
 
 LoadOnTool SandSide::load_on_tool() const {

@@ -42,7 +42,7 @@ class SandSide {
   /// it.
   double top_at(const Eigen::Vector2d& place) const;
   /// Takes a height of sand over a cell of the bed at such a place [m].
-  void catch_sand(const Eigen::Vector2d& place, double height, double cell_area);
+  void catch_sand(const Eigen::Vector2d& place, double height);
   /// Brings the sand on the tool to rest, at this time [s].
   void relax_load(HeightField& bed, double time) {
     if (load_) load_->relax(*tool_, bed, tip_, time);

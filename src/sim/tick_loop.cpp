@@ -31,19 +31,18 @@ namespace {
 /// A tool that carries sand, over a bed.
 class CarryingTool : public SandCatcher {
  public:
-  CarryingTool(SandSide& sand, double cell_area) : sand_(sand), cell_area_(cell_area) {}
+  explicit CarryingTool(SandSide& sand) : sand_(sand) {}
   double top_at(double x, double y) const override { return sand_.top_at({x, y}); }
-  void take(double x, double y, double height) override { sand_.catch_sand({x, y}, height, cell_area_); }
+  void take(double x, double y, double height) override { sand_.catch_sand({x, y}, height); }
 
  private:
   SandSide& sand_;
-  double cell_area_;
 };
 
 }  // namespace
 
 void TickLoop::pour(double time) {
-  CarryingTool tool(sand_, bed_.cell_area());
+  CarryingTool tool(sand_);
   sources_->act(bed_, time + 1.0 / scene().device.servo_rate, sand_.load() ? &tool : nullptr);
 }
 

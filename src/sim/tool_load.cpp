@@ -11,15 +11,16 @@ namespace sandstroke {
 ToolLoad::ToolLoad(const RelaxationSettings& relaxation, double density, const UpperSide& upper)
     : carried_(relaxation, upper), density_(density) {}
 
-void ToolLoad::take(const Tool& tool, double cell_area) {
+void ToolLoad::take(const Tool& tool) {
   if (tool.lifted().empty()) return;
+  const double cell_area = tool.upper_side()->grid().cell_area();
   for (const LiftedSand& one : tool.lifted()) lifted_.add(one.height * cell_area);
   carried_.take(*tool.upper_side(), tool.lifted());
   most_ = std::max(most_, carried_.volume());
 }
 
-void ToolLoad::take(const UpperSide& upper, const LiftedSand& caught, double cell_area) {
-  caught_.add(caught.height * cell_area);
+void ToolLoad::take(const UpperSide& upper, const LiftedSand& caught) {
+  caught_.add(caught.height * upper.grid().cell_area());
   carried_.take(upper, {caught});
   most_ = std::max(most_, carried_.volume());
 }

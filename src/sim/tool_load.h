@@ -34,9 +34,9 @@ class ToolLoad {
   /// The tool was placed: the sand on it goes with it.
   void go_with(const UpperSide& upper) { carried_.lie_on(upper); }
   /// Takes what the tool lifted in its last displacement.
-  void take(const Tool& tool, double cell_area);
+  void take(const Tool& tool);
   /// Takes a height of sand over a cell of the bed, at a place from the tip on the bed's axes [m].
-  void take(const UpperSide& upper, const LiftedSand& caught, double cell_area);
+  void take(const UpperSide& upper, const LiftedSand& caught);
   /// Brings the sand on the tool to rest with its tip here [m], at this time [s]. What spills lands once it
   /// has fallen.
   void relax(const Tool& tool, HeightField& bed, const Eigen::Vector3d& tip, double time);
