@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "core/interrupt.h"
+#include "render/load_mesh.h"
 #include "view/live_page.h"
 
 namespace sandstroke {
@@ -61,10 +62,19 @@ void RunView::publish(const TickRecord& tick) {
   state_.depth = tick.contact ? tick.depth : std::numeric_limits<double>::quiet_NaN();
   state_.rate = rate_.at(published_at_, static_cast<double>(ticks_));
   state_.tip_known = tick.hand.down;
+  show_load();
   shown_.publish(state_);
   if (state_.lateness > late) shown_.say("the run is slower than real time");
   if (state_.lateness < nearly_in_time) shown_.say("");
   bed_.publish(simulation_.shown_bed());
+}
+
+void RunView::show_load() {
+  const std::optional<LoadSurface> load = simulation_.load_surface();
+  if (!load) return state_.load.reset();
+  TriangleMesh mesh = load_mesh(*load);
+  if (!state_.load || state_.load->vertices != mesh.vertices)
+    state_.load = std::make_shared<TriangleMesh>(std::move(mesh));
 }
 
 std::optional<double> RunView::lag() const {

@@ -30,6 +30,7 @@ class RunView : public SimulationObserver {
  private:
   void wait_until(double time);
   void publish(const TickRecord& tick);
+  void show_load();
 
   Simulation& simulation_;
   LiveBed bed_;

@@ -38,6 +38,8 @@ class Simulation {
   const HeightField& bed() const { return loop_.bed(); }
   /// The bed as it is shown while a stroke goes on: at rest (TickLoop::bed_at_rest), once it has relaxed.
   const HeightField& shown_bed() { return result_.relaxations > 0 ? loop_.bed_at_rest() : bed(); }
+  /// The sand on the tool; none: there is none.
+  std::optional<LoadSurface> load_surface() const { return loop_.load_surface(); }
   /// The number of ticks that run() reports: all of the stroke but idle ones.
   std::int64_t told_ticks() const;
   TraceContent trace_content() const;

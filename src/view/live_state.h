@@ -3,8 +3,11 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <string>
+
+#include "tool/triangle_mesh.h"
 
 namespace sandstroke {
 
@@ -19,6 +22,9 @@ struct ViewState {
   double lateness = 0.0, max_lateness = 0.0;                        ///< s
   bool tip_known = false;
   bool force_withheld = false;  ///< until the tool has been above the sand
+  /// The sand on the tool, on the bed's axes with the tip at the origin; null: none. Another mesh where it
+  /// has changed.
+  std::shared_ptr<const TriangleMesh> load = nullptr;
 };
 
 /// The newest state, from the one who knows it to those who show it. It locks, so the servo loop must not use

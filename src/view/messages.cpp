@@ -25,6 +25,14 @@ void put_vector(std::string& message, const Eigen::Vector3d& vector) {
   for (int axis = 0; axis < 3; ++axis) put(message, static_cast<float>(vector[axis]));
 }
 
+void put_mesh(std::string& message, const TriangleMesh& mesh) {
+  put(message, static_cast<std::uint32_t>(mesh.vertices.size()));
+  put(message, static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (const Eigen::Vector3d& vertex : mesh.vertices) put_vector(message, vertex);
+  for (const auto& triangle : mesh.triangles)
+    for (const int corner : triangle) put(message, static_cast<std::uint32_t>(corner));
+}
+
 template <class Number>
 Number get(const char*& at) {
   Number number;
@@ -81,7 +89,7 @@ std::string drawing_message(bool drawing) { return text_of({{"drawing", drawing}
 
 std::string end_message(std::string_view reason) { return text_of({{"end", reason}}); }
 
-void put_picture(const ViewState& state, const LiveBed::Tiles& tiles, std::string& message) {
+void put_picture(const ViewState& state, const LiveBed::Tiles& tiles, bool with_load, std::string& message) {
   message.clear();
   put(message, picture_signature);
   put(message, static_cast<std::uint32_t>(tiles.index.size()));
@@ -90,8 +98,8 @@ void put_picture(const ViewState& state, const LiveBed::Tiles& tiles, std::strin
   put_vector(message, state.force);
   for (const double number : {state.depth, state.rate, state.lateness, state.max_lateness})
     put(message, static_cast<float>(number));
-  const unsigned flags =
-      (std::isnan(state.depth) ? 0u : 1u) | (state.tip_known ? 2u : 0u) | (state.force_withheld ? 4u : 0u);
+  const unsigned flags = (std::isnan(state.depth) ? 0u : 1u) | (state.tip_known ? 2u : 0u) |
+                         (state.force_withheld ? 4u : 0u) | (with_load ? 8u : 0u);
   put(message, std::uint32_t{flags});
   for (const double part : state.orientation.coeffs()) put(message, static_cast<float>(part));
   put(message, std::uint32_t{0});
@@ -100,6 +108,7 @@ void put_picture(const ViewState& state, const LiveBed::Tiles& tiles, std::strin
     message.append(reinterpret_cast<const char*>(&tiles.heights[i * BedGeometry::tile_area]),
                    sizeof(float) * BedGeometry::tile_area);
   }
+  if (with_load) put_mesh(message, state.load ? *state.load : TriangleMesh{});
 }
 
 std::optional<std::vector<PointerSample>> pointer_samples(std::string_view message) {

@@ -62,8 +62,8 @@ std::string end_message(std::string_view reason);
 
 // To the page, in binary:
 inline constexpr std::size_t picture_header_bytes = 80;
-/// Fills `message`, and reuses its memory.
-void put_picture(const ViewState& state, const LiveBed::Tiles& tiles, std::string& message);
+/// Fills `message`, and reuses its memory. with_load: it ends with the sand on the tool.
+void put_picture(const ViewState& state, const LiveBed::Tiles& tiles, bool with_load, std::string& message);
 
 // From the page, in binary:
 inline constexpr std::size_t pointer_sample_bytes = 24;

@@ -135,7 +135,8 @@ class Page : public std::enable_shared_from_this<Page> {
     const bool newer = shared_.sources.state.take_newer(state_version_, state);
     shared_.sources.bed.take_newer(reader_, tiles_);
     if (!newer && tiles_.index.empty()) return false;
-    put_picture(state, tiles_, picture_);
+    put_picture(state, tiles_, state.load != said_load_, picture_);
+    said_load_ = state.load;
     return true;
   }
 
@@ -193,6 +194,7 @@ class Page : public std::enable_shared_from_this<Page> {
   std::string picture_, text_;  // being sent
   std::uint64_t state_version_ = 0;
   bool writing_ = false, closing_ = false, said_hello_ = false;
+  std::shared_ptr<const TriangleMesh> said_load_;
   std::string said_status_;
   std::optional<bool> said_drawing_;
 };

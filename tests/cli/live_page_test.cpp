@@ -129,6 +129,32 @@ TEST_F(CliLivePage, DrawsTheToolAsItIs) {
   for (const double x : {-0.012, 0.012}) EXPECT_FALSE(is_steel(x, 0.03)) << x;
 }
 
+TEST_F(CliLivePage, DrawsTheSandOnTheTool) {
+  write_file(test_folder_ / "shovel.toml",
+             "[model]\npreset = \"accurate\"\n[bed]\nsize = [0.3, 0.2]\ncells = [75, 50]\n[tool]\n"
+             "shape = \"shovel\"\nsize = [0.06, 0.06, 0.025]\nthickness = 0.008\ncarries = true\n[stroke]\n"
+             "file = \"spoon.toml\"\n");
+  write_file(test_folder_ / "spoon.toml",
+             "clearance = 0.05\nspeed = 0.2\nplunge_speed = 0.2\nstart = [-0.1, 0.0]\n[[segment]]\n"
+             "kind = \"line\"\nto = [-0.02, 0.0]\ndepth = [0.0, 0.02, 0.02, -0.05]\n");
+  Viewed program({"run", "shovel.toml", "-o", "a.h5", "--view", "--no-open"}, test_folder_);
+  open(program);
+  browser().wait_for("live.ended");
+  EXPECT_EQ(program.end().exit_code, 0);
+  browser().evaluate("live.view.camera.turn(0, 2)");
+  settle();
+  const Image window = picture();
+  const nlohmann::json tip = browser().evaluate("live.view.tool.tip");
+  const auto is_sand = [&](double x, double y, double above) {  // reddish, as no steel is
+    const Point at = seen(tip[0].get<double>() + x, tip[1].get<double>() + y, tip[2].get<double>() + above);
+    const std::uint8_t* pixel = window.pixel(static_cast<int>(at.x), static_cast<int>(at.y));
+    return pixel[0] > pixel[2];
+  };
+  EXPECT_TRUE(is_sand(-0.005, 0.0, 0.015));   // in the middle of the shovel
+  EXPECT_FALSE(is_sand(-0.026, 0.0, 0.025));  // on its back
+  EXPECT_TRUE(browser().errors().empty()) << browser().errors().front();
+}
+
 TEST_F(CliLivePage, AMouseDrawsAStrokeWhoseRunIsWhatWasSeen) {
   const std::vector<std::string> firm = {"--set", "relaxation.talus_angle=85", "--set", "relaxation.rate=0"};
   std::vector<std::string> arguments = {"record",  "--max-skipped", "100",        "--device",

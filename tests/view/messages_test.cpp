@@ -33,7 +33,7 @@ TEST(ViewMessages, APictureIsItsBytes) {
   tiles.heights.assign(BedGeometry::tile_area, 1.0f);
   tiles.heights.back() = -2.0f;
   std::string message = "what was there before";
-  put_picture(state, tiles, message);
+  put_picture(state, tiles, false, message);
   ASSERT_EQ(message.size(), 80u + 4u + 4u * 4096u);
   EXPECT_EQ(message.substr(0, 16), "SAND" + bytes({1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x40}));
   EXPECT_EQ(message.substr(16, 12), bytes({0, 0, 0x80, 0x3f, 0, 0, 0x80, 0xbf, 0, 0, 0, 0x3f}));
@@ -49,12 +49,32 @@ TEST(ViewMessages, APictureIsItsBytes) {
   state.force_withheld = false;
   state.tip_known = true;
   state.depth = std::numeric_limits<double>::quiet_NaN();
-  put_picture(state, {}, message);
+  put_picture(state, {}, false, message);
   ASSERT_EQ(message.size(), 80u);
   EXPECT_EQ(message[56], 2);
   float depth;
   std::memcpy(&depth, &message[40], sizeof depth);
   EXPECT_TRUE(std::isnan(depth));
+}
+
+TEST(ViewMessages, TheSandOnTheToolEndsAPicture) {
+  ViewState state;
+  TriangleMesh mesh;
+  mesh.vertices = {{0.0, 0.0, 0.5}, {1.0, 0.0, 0.5}, {0.0, -1.0, 0.25}};
+  mesh.triangles = {{0, 2, 1}};
+  state.load = std::make_shared<TriangleMesh>(mesh);
+  std::string message;
+  put_picture(state, {}, false, message);
+  ASSERT_EQ(message.size(), 80u);  // a page that has it
+  put_picture(state, {}, true, message);
+  ASSERT_EQ(message.size(), 80u + 8u + 3u * 12u + 12u);
+  EXPECT_EQ(message[56] & 8, 8);
+  EXPECT_EQ(message.substr(80, 8), bytes({3, 0, 0, 0, 1, 0, 0, 0}));
+  EXPECT_EQ(message.substr(112, 12), bytes({0, 0, 0, 0, 0, 0, 0x80, 0xbf, 0, 0, 0x80, 0x3e}));
+  EXPECT_EQ(message.substr(124, 12), bytes({0, 0, 0, 0, 2, 0, 0, 0, 1, 0, 0, 0}));
+  state.load.reset();  // it fell off
+  put_picture(state, {}, true, message);
+  EXPECT_EQ(message.substr(80), bytes({0, 0, 0, 0, 0, 0, 0, 0}));
 }
 
 TEST(ViewMessages, WhatIsSaidIsJson) {

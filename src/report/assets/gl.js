@@ -55,20 +55,26 @@ function glProgram(gl, vertexText, fragmentText) {
   };
 }
 
-/** Triangles: three numbers per vertex, of any array type; indices of 16 or 32 bits. Returns draw(). */
+/** Triangles: three numbers per vertex, of any array type; indices of 16 or 32 bits. Returns draw(), with free(). */
 function glMesh(gl, vertices, indices) {
   const array = gl.createVertexArray();
+  const buffers = [gl.createBuffer(), gl.createBuffer()];
   gl.bindVertexArray(array);
-  gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+  gl.bindBuffer(gl.ARRAY_BUFFER, buffers[0]);
   gl.bufferData(gl.ARRAY_BUFFER, vertices, gl.STATIC_DRAW);
   gl.enableVertexAttribArray(0);
   gl.vertexAttribPointer(0, 3, vertices instanceof Uint8Array ? gl.UNSIGNED_BYTE : gl.FLOAT, false, 0, 0);
-  gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
+  gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffers[1]);
   gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
-  return () => {
+  const draw = () => {
     gl.bindVertexArray(array);
     gl.drawElements(gl.TRIANGLES, indices.length, indices instanceof Uint32Array ? gl.UNSIGNED_INT : gl.UNSIGNED_SHORT, 0);
   };
+  draw.free = () => {
+    gl.deleteVertexArray(array);
+    buffers.forEach((buffer) => gl.deleteBuffer(buffer));
+  };
+  return draw;
 }
 
 /** A texture whose storage is allocated at once. */

@@ -167,12 +167,19 @@ void main() {
 
 const solidFragment = `
 uniform vec4 paint;
+uniform bool sandy;      // the sand on the tool
 uniform vec3 eye;
 uniform float gloss;
 in vec3 mesh, world;
 out vec4 colour;
 void main() {
   vec3 normal = normalize(cross(dFdx(world), dFdy(world))), viewer = normalize(eye - world);
+  if (sandy) {
+    if (normal.z < 0.0) normal = -normal;
+    vec3 albedo = sand_albedo(world.z) * (1.0 + 0.12 * noise(mesh.xy / 0.0014));
+    colour = vec4(tone(albedo * (sun_colour * max(dot(normal, sun_direction), 0.0) + ambient(normal))), 1.0);
+    return;
+  }
   if (gloss > 0.0) normal = normalize(mesh);   // of a sphere
   float glint = gloss * pow(max(dot(normal, normalize(viewer + sun_direction)), 0.0), 90.0);
   vec3 received = sun_colour * max(dot(normal, sun_direction), 0.0) + 2.0 * ambient(normal);
@@ -221,7 +228,7 @@ function sandPicture(canvas, bed) {
 
   const lit = glProgram(gl, wholePicture, sandLook + noiseShader + lightShader);
   const sand = glProgram(gl, sandVertex, noiseShader + sandFragment);
-  const solid = glProgram(gl, solidVertex, sandLook + solidFragment);
+  const solid = glProgram(gl, solidVertex, sandLook + noiseShader + solidFragment);
   const steps = [1, 2, 4, 8, 16, 32], grids = steps.map((step) => glMesh(gl, ...gridMesh(tileSide, step)));
   const sphere = glMesh(gl, ...turnedMesh(halfCircle(20), 32));
   const arrow = glMesh(gl, ...turnedMesh([[0, 0], [0.35, 0], [0.35, 0.75], [1, 0.75], [0, 1]], 20));
@@ -235,7 +242,7 @@ function sandPicture(canvas, bed) {
   const waiting = new Map();  // heights by tile, not taken yet
   let unfinished = null;      // the last picture, while it is being drawn
   let stale = [[0, 0, cols, rows]];  // rectangles of cells whose light must be computed
-  let tool = null, toolMesh = null, line = null, colouring = null, [lowest, highest] = [bed.low, bed.high];
+  let tool = null, toolMesh = null, load = null, line = null, colouring = null, [lowest, highest] = [bed.low, bed.high];
 
   /** Cells [first column, row, end column, row] changed: the light near them and in their shadow becomes stale. */
   const shade = ([left, lower, right, upper]) => {
@@ -339,7 +346,7 @@ function sandPicture(canvas, bed) {
            cell_size: cellSize, origin, tool: centre, radius: tool && !toolMesh ? tool.radius : 0,
            range: colouring ? [colouring.low, colouring.high, 1] : [0, 1, 0], diverging: colouring?.diverging ?? false });
     drawTiles(camera, canvas.height / (2 * camera.tan * coarseness));
-    const upright = { ...world, axis: [0, 0, 1], turn: [0, 0, 0, 1], gloss: 0 };
+    const upright = { ...world, axis: [0, 0, 1], turn: [0, 0, 0, 1], gloss: 0, sandy: false };
     drawSolid(box, { ...upright, position: [0, 0, 0], scale: [1, 1, 1], paint: [0.27, 0.16, 0.09, 1] });
     if (line) {
       const along = plus(line[1], line[0], -1), thin = 0.002 * size;
@@ -361,6 +368,7 @@ function sandPicture(canvas, bed) {
     gl.depthMask(true);
     gl.depthFunc(gl.LESS);
     gl.disable(gl.BLEND);
+    if (load) drawSolid(load, { ...upright, position: tool.tip, scale: [1, 1, 1], sandy: true });
     const push = lengthOf(tool.force);
     if (push > 0.2 * radius)
       drawSolid(arrow, { ...upright, axis: unitOf(tool.force), position: centre, paint: [0.75, 0.13, 0.02, 1],
@@ -402,6 +410,11 @@ function sandPicture(canvas, bed) {
     /** Sets the tool's shape, its tip at the origin [m]. Without it the tool is a sphere. */
     setToolMesh: (vertices, triangles) => {
       toolMesh = glMesh(gl, Float32Array.from(vertices), Uint32Array.from(triangles));
+    },
+    /** Sets the sand on the tool: triangles on the bed's axes, the tip at the origin [m]; without any there is none. */
+    setLoad: (vertices, triangles) => {
+      load?.free();
+      load = triangles.length > 0 ? glMesh(gl, vertices, triangles) : null;
     },
     /** Sets a line between two positions; null: there is none. */
     setLine: (one) => { line = one; },

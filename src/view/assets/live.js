@@ -3,7 +3,7 @@
 // and how well the loop keeps its times. Where the page may be the hand (a pointer), it sends back what it draws.
 
 const recordBytes = { head: 80, tile: 4 + 4 * tileSide * tileSide, sample: 24 };
-const placed = 2;  // a flag: the tool's position is known
+const placed = 2, loadFollows = 8;  // flags: the tool's position is known; the message ends with the sand on it
 
 /** Reads what a server's message says about the tool and the loop; numbers are as on the wire. */
 function readHead(bytes) {
@@ -13,6 +13,12 @@ function readHead(bytes) {
            depth: at.getFloat32(40, true), rate: at.getFloat32(44, true), lateness: at.getFloat32(48, true),
            latest: at.getFloat32(52, true), flags: at.getUint32(56, true),
            turn: [...three(60), at.getFloat32(72, true)] };
+}
+
+/** Gives a picture the sand on the tool, as a message has it from a byte on: vertices on the bed's axes from the tip. */
+function takeLoad(picture, bytes, from) {
+  const [vertices, triangles] = new Uint32Array(bytes, from, 2), first = from + 8;
+  picture.setLoad(new Float32Array(bytes, first, 3 * vertices), new Uint32Array(bytes, first + 12 * vertices, 3 * triangles));
 }
 
 /** Samples of a pointer as the bytes that are sent. */
@@ -183,16 +189,18 @@ function drawLive(main) {
                  `${newtons.toFixed(2)} N`, `${head.rate.toFixed(0)} Hz`, `${(1e6 * head.lateness).toFixed(0)} µs`,
                  `${(1e6 * head.latest).toFixed(0)} µs`]);
     if (!view) return;
-    for (let i = 0, at = recordBytes.head; i < head.tiles; i += 1, at += recordBytes.tile) {
+    let at = recordBytes.head;
+    for (let i = 0; i < head.tiles; i += 1, at += recordBytes.tile) {
       const tile = new DataView(bytes).getUint32(at, true), values = new Float32Array(bytes, at + 4, tileSide * tileSide);
       const { tileCount } = view.picture;
       if (tile < tileCount) view.picture.setTile(tile, values);
       else view.picture.setFloorTile(tile - tileCount, values);
     }
+    if (flags & loadFollows) takeLoad(view.picture, bytes, at);
     const { tool, max_force: most } = live.hello;
     const long = (0.25 * view.picture.size) / (most > 0 && most < 1e3 ? most : 10);
     const shown = flags & placed ? { tip: head.tip, turn: head.turn, radius: tool.radius, force: force.map((x) => x * long) } : null;
-    if (head.tiles === 0 && JSON.stringify(shown) === JSON.stringify(view.tool)) return;
+    if (head.tiles === 0 && !(flags & loadFollows) && JSON.stringify(shown) === JSON.stringify(view.tool)) return;
     view.tool = shown;
     view.changed();
   };
