@@ -84,6 +84,7 @@ nlohmann::ordered_json describe(const RunFile& run) {
     facts["error_estimate"] = error_json(*error);
   if (const std::vector<SourceLedger> sources = run.sources(); !sources.empty())
     facts["sources"] = sources_json(sources);
+  if (const std::optional<LoadLedger> load = run.load()) facts["load"] = load_json(*load);
   if (run.has_trace()) {
     const std::vector<TickRecord> trace = run.trace();
     const auto [force, depth] = trace_peaks(trace);
@@ -103,9 +104,12 @@ void print_table(const nlohmann::ordered_json& facts) {
     if (std::string(field.units) != "1") units[field.name] = field.units;
   });
   visit_source_fields([&](const FieldText& field, auto) { units[field.name] = field.units; });
+  visit_load_fields(
+      [&](const FieldText& field, auto) { units["/load/" + std::string(field.name)] = field.units; });
   const nlohmann::ordered_json flat = facts.flatten();
   for (const auto& [path, value] : flat.items()) {
-    const auto unit = units.find(path.substr(path.rfind('/') + 1));
+    const std::string own = path.substr(path.rfind('/') + 1);
+    const auto unit = units.contains(path) ? units.find(path) : units.find(own);
     const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
     print_text("{:<27} {}{}\n", terminal_line(path.substr(1)), terminal_line(text),
                unit == units.end() ? "" : " " + unit->second);

@@ -218,6 +218,15 @@ std::vector<SourceLedger> RunFile::sources() const {
   return sources;
 }
 
+std::optional<LoadLedger> RunFile::load() const {
+  if (!file_.has(load_group)) return std::nullopt;
+  LoadLedger load;
+  visit_load_fields([&](const FieldText& field, const auto& of) {
+    of(load) = file_.number_attribute(load_group, field.name);
+  });
+  return load;
+}
+
 std::string load_dataset(int k) { return fmt::format("/tool/sand/{:06}", k); }
 
 std::optional<LoadSurface> RunFile::load_surface(int k) const {

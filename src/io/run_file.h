@@ -17,6 +17,7 @@ namespace sandstroke {
 /// The group of attributes that visit_error_fields() names.
 inline constexpr const char* error_group = "/error_estimate";
 /// The group of the columns that visit_source_fields() names, over its scale `source`.
+inline constexpr const char* load_group = "/load";
 inline constexpr const char* source_group = "/sources";
 /// Where a run file has the sand on the tool in frame k, if any lies there.
 std::string load_dataset(int k);
@@ -57,6 +58,8 @@ class RunFile {
   std::optional<HeightField> error_map() const;
   /// What each of the scene's sources poured or took; empty if it has none, or the run was cut off.
   std::vector<SourceLedger> sources() const;
+  /// The sand that the tool carried; none: it carries none, or the run was cut off.
+  std::optional<LoadLedger> load() const;
   std::string scene_text() const;  ///< the resolved scene (TOML)
   SceneFile scene() const;         ///< the same, with its tool's mesh
   /// Name and value of each attribute of /provenance.

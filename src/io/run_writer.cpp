@@ -116,6 +116,12 @@ void remove_sources(Hdf5GridWriter& file) {
   file.remove(source_group);
 }
 
+void write_load(Hdf5GridWriter& file, const LoadLedger& load) {
+  file.make_group(load_group);
+  visit_load_fields(
+      [&](const FieldText& field, const auto& of) { file.attribute(load_group, field.name, of(load)); });
+}
+
 }  // namespace
 
 double least_bytes(const Simulation& simulation) {
@@ -263,6 +269,7 @@ void RunWriter::visit_state(StateVisitor& state) {
     for (const char* later : {final_surface, error_surface})
       file_.remove(later, {"/surface/y", "/surface/x"});
     file_.remove(error_group);
+    file_.remove(load_group);
     remove_sources(file_);
   }
   frames_.visit_state(state);
@@ -285,6 +292,7 @@ void RunWriter::end(const RunResult& result, const HeightField& surface) {
     file_.attribute(final_surface, "asked_depth", result.furrow->asked_depth);
   }
   if (!result.sources.empty()) write_sources(file_, result.sources);
+  if (result.load) write_load(file_, *result.load);
   file_.flush();
 }
 

@@ -82,6 +82,7 @@ nlohmann::ordered_json summary_of_file(const RunFile& file, const KeptRun& run) 
   summary["volume_final"] = area * run.final.sum();
   if (const std::vector<SourceLedger> sources = file.sources(); !sources.empty())
     summary["sources"] = sources_json(sources);
+  if (const std::optional<LoadLedger> load = file.load()) summary["load"] = load_json(*load);
   if (const std::optional<ErrorEstimate> error = file.error_estimate())
     summary["error_estimate"] = error_json(*error);
   return summary;

@@ -82,6 +82,15 @@ py::list sources_of(Stepped& stepped) {
   return sources;
 }
 
+py::object load_of(Stepped& stepped) {
+  const auto load = stepped.use(
+      [](SteppedSimulation& s) { return s.load() ? std::optional(s.load()->ledger()) : std::optional<LoadLedger>(); });
+  if (!load) return py::none();
+  py::dict row;
+  visit_load_fields([&](const FieldText& field, const auto& of) { row[field.name] = of(*load); });
+  return row;
+}
+
 }  // namespace
 
 void add_stepped(py::module_& module) {
@@ -143,6 +152,7 @@ void add_stepped(py::module_& module) {
                                return floor.size() == 0 ? py::object(py::none()) : py::object(copy_of(floor));
                              })
       .def_property_readonly("sources", &sources_of)
+      .def_property_readonly("on_tool", &load_of)
       .def_property_readonly(
           "time", [](Stepped& stepped) { return stepped.use([](SteppedSimulation& s) { return s.time(); }); })
       .def_property_readonly("scene", &Stepped::scene)

@@ -75,10 +75,8 @@ nlohmann::ordered_json run_summary(const RunResult& r, const Scene& scene, const
   }
   if (r.load) {
     json["given_volume"] = r.given_volume;
-    json["load"] = {{"lifted", r.load->lifted}, {"ran_on", r.load->ran_on},
-                    {"caught", r.load->caught}, {"spilled", r.load->spilled},
-                    {"in_air", r.load->in_air}, {"carried", r.load->carried},
-                    {"most", r.load->most},     {"density", scene.strength.density}};
+    json["load"] = load_json(*r.load);
+    json["load"]["density"] = scene.strength.density;
   }
   if (r.followed) json["followed"] = followed_json(*r.followed);
   if (r.recorded_force)
@@ -113,6 +111,12 @@ nlohmann::ordered_json sources_json(const std::vector<SourceLedger>& sources) {
     nlohmann::ordered_json& row = json.emplace_back();
     visit_source_fields([&](const FieldText& field, const auto& of) { row[field.name] = of(source); });
   }
+  return json;
+}
+
+nlohmann::ordered_json load_json(const LoadLedger& load) {
+  nlohmann::ordered_json json;
+  visit_load_fields([&](const FieldText& field, const auto& of) { json[field.name] = of(load); });
   return json;
 }
 

@@ -20,6 +20,9 @@ std::string text_of(const LoadLedger& load, double density);
 /// [{"poured": ...}, ...]
 nlohmann::ordered_json sources_json(const std::vector<SourceLedger>& sources);
 
+/// {"lifted": ...}
+nlohmann::ordered_json load_json(const LoadLedger& load);
+
 /// {"height_share": ..., ...}
 nlohmann::ordered_json error_json(const ErrorEstimate& error);
 

@@ -232,6 +232,30 @@ void visit_source_fields(const Visit& visit) {
       Text{"taken", "kg", "of that, sand that it got"}, [](auto& source) -> auto& { return source.taken; });
 }
 
+/// The sand on a tool (LoadLedger), as visit_tick_fields().
+template <class Visit>
+void visit_load_fields(const Visit& visit) {
+  using Text = FieldText;
+  visit(
+      Text{"lifted", "m^3", "sand that the tool took out of the bed"},
+      [](auto& load) -> auto& { return load.lifted; });
+  visit(
+      Text{"ran_on", "m^3", "sand that ran onto it from the bed beside it"},
+      [](auto& load) -> auto& { return load.ran_on; });
+  visit(
+      Text{"caught", "m^3", "sand from sources that came down on it"},
+      [](auto& load) -> auto& { return load.caught; });
+  visit(
+      Text{"spilled", "m^3", "sand that ran over its rim"}, [](auto& load) -> auto& { return load.spilled; });
+  visit(
+      Text{"in_air", "m^3", "of that, sand that still falls"},
+      [](auto& load) -> auto& { return load.in_air; });
+  visit(
+      Text{"carried", "m^3", "sand on it at the end"}, [](auto& load) -> auto& { return load.carried; });
+  visit(
+      Text{"most", "m^3", "the most that it carried"}, [](auto& load) -> auto& { return load.most; });
+}
+
 /// How well the forces of a run and those that were recorded agree (measure/force_agreement.h).
 struct ForceAgreement {
   std::int64_t ticks = 0;                                              ///< ticks that have both

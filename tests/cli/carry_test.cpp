@@ -51,6 +51,11 @@ TEST(CliCarry, TellsWhatWasLiftedAndSpilled) {
   }
   EXPECT_NEAR(most, 1600.0 * load["most"].get<double>(), 0.05 * most);
   EXPECT_NEAR(heaviest, 9.81 * most, 0.2 * heaviest);
+  // The file keeps the books, and info tells them.
+  const auto told = nlohmann::json::parse(run_program({"info", "a.h5", "--json"}, folder).out)["load"];
+  for (const auto& [name, value] : told.items()) EXPECT_EQ(value, load[name]) << name;
+  EXPECT_EQ(told.size() + 1, load.size());  // the density is the scene's
+  EXPECT_NE(run_program({"info", "a.h5"}, folder).out.find(" m^3"), std::string::npos);
   // Frames have the sand on the tool where there is some.
   int with_load = 0;
   const int frames = static_cast<int>(file.frame_times().size());
@@ -81,15 +86,7 @@ TEST(CliCarry, ARunThatWasKilledGoesOnWithTheSameBits) {
 TEST(CliCarry, IsRefusedByOneSentence) {
   const fs::path folder = folder_of_shovel();
   const auto refused = [&](const std::vector<std::string>& settings, const std::string& sentence) {
-    std::vector<std::string> words = {"run", "shovel.toml", "-o", "a.h5"};
-    for (const std::string& setting : settings) {
-      words.emplace_back("--set");
-      words.push_back(setting);
-    }
-    const ProgramResult run = run_program(words, folder);
-    EXPECT_EQ(run.exit_code, 2);
-    EXPECT_NE(run.err.find(sentence), std::string::npos) << run.err;
-    EXPECT_FALSE(fs::exists(folder / "a.h5"));
+    expect_run_refused("shovel.toml", settings, sentence, folder);
   };
   refused({"relaxation.law=paper"}, "where sand lies on a tool (tool.carries)");
   refused({"tool.thickness=0.004"}, "sand would run through such a wall");

@@ -384,3 +384,18 @@ def test_floor_and_sources_are_told(small):
     assert poured["landed"] + poured["in_air"] == pytest.approx(poured["poured"], rel=1e-14)
     assert 0.0 < taken["taken"] < taken["asked"] == pytest.approx(0.2, rel=1e-12)
     assert (pouring.heights >= pouring.floor).all()
+
+
+def test_a_tool_that_carries_sand_keeps_its_books(small):
+    assert sandstroke.Simulation(small).on_tool is None
+    sim = sandstroke.Simulation(small, settings={
+        "model.preset": "accurate", "tool.shape": "cylinder", "tool.radius": 0.02, "tool.height": 0.004,
+        "tool.solid": True, "tool.carries": True})
+    before, carried = sim.volume, 0.0
+    for k in range(400):
+        carried = sim.tick((0.0, 0.0, -0.012 + 1e-4 * k)).carried
+    sand = sim.on_tool
+    assert sand["lifted"] > 1e-6
+    assert sand["carried"] * sim.scene["force"]["density"] == pytest.approx(carried, rel=1e-12)
+    assert sand["carried"] + sand["spilled"] == pytest.approx(sand["lifted"] + sand["ran_on"], rel=1e-12)
+    assert sim.volume + sand["carried"] + sand["in_air"] == pytest.approx(before, abs=1e-15)

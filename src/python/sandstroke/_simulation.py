@@ -130,6 +130,11 @@ class Simulation:
         """Where the sand of each [[source]] is [kg]: poured, landed, in_air; asked and taken of a sink."""
         return self._stepped.sources
 
+    @property
+    def on_tool(self) -> dict[str, float] | None:
+        """Sand that the tool carries, and where it came from and went [m^3]; None where it carries none."""
+        return self._stepped.on_tool
+
     def height_at(self, x: float, y: float) -> float:
         """Height of the sand at (x, y) [m]; nan beside the bed."""
         return self._stepped.height_at(x, y)
