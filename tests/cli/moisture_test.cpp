@@ -85,15 +85,7 @@ TEST(CliMoisture, ARunThatWasKilledGoesOnWithTheSameBits) {
 TEST(CliMoisture, IsRefusedByOneSentence) {
   const fs::path folder = folder_of_cake();
   const auto refused = [&](const std::vector<std::string>& settings, const std::string& sentence) {
-    std::vector<std::string> words = {"run", "cake.toml"};
-    for (const std::string& setting : settings) {
-      words.emplace_back("--set");
-      words.push_back(setting);
-    }
-    const ProgramResult run = run_program(words, folder);
-    EXPECT_EQ(run.exit_code, 2);
-    EXPECT_NE(run.err.find(sentence), std::string::npos) << run.err;
-    EXPECT_FALSE(fs::exists(folder / "cake.h5"));
+    expect_run_refused("cake.toml", settings, sentence, folder);
   };
   refused({"relaxation.law=paper"}, "does not go with relaxation.law = \"paper\"");
   refused({"moisture.friction_angle=2"}, "moisture.friction_angle");

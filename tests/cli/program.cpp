@@ -118,4 +118,14 @@ fs::path test_folder() {
   return folder;
 }
 
+void expect_run_refused(const std::string& scene, const std::vector<std::string>& settings,
+                        const std::string& sentence, const fs::path& folder) {
+  std::vector<std::string> words = {"run", scene, "-o", "refused.h5"};
+  for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
+  const ProgramResult run = run_program(words, folder);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find(sentence), std::string::npos) << run.err;
+  EXPECT_FALSE(fs::exists(folder / "refused.h5"));
+}
+
 }  // namespace sandstroke

@@ -30,6 +30,10 @@ struct Conditions {
 ProgramResult run_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                           const Conditions& conditions = {});
 
+/// Expects that `run` refuses a scene with these settings by that sentence, and leaves no file.
+void expect_run_refused(const std::string& scene, const std::vector<std::string>& settings,
+                        const std::string& sentence, const std::filesystem::path& folder);
+
 /// A fresh folder for one test, with a small scene and stroke in it: scene.toml, line.toml. Gone when all
 /// tests have passed.
 std::filesystem::path test_folder();
