@@ -204,6 +204,7 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
     warn_if_any(WarningCode::stroke_deep, depth_warning(scene, simulation.bed(), *stroke, stroke_name));
     warn_if_any(WarningCode::tool_coarse,
                 coarse_tool_warning(scene, deepest_point(scene, simulation.bed(), *stroke).depth));
+    warn_if_any(WarningCode::load_leaks, leaking_tool_warning(scene));
   }
   warn_if_any(WarningCode::moisture_coarse, coarse_moisture_warning(scene));
   if (!output.empty() && simulation.seconds() > 0.0)

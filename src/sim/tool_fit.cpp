@@ -9,6 +9,7 @@
 #include "core/elementary.h"
 #include "core/error.h"
 #include "rules/filter.h"
+#include "sand/room_on_tool.h"
 #include "tool/tool_surface.h"
 #include "tool/tool_width.h"
 
@@ -119,6 +120,19 @@ std::string coarse_tool_warning(const Scene& scene, double depth) {
       "{:.0f} % with ten{}; --estimate-error says more",
       cells, 100.0 * expected_furrow_error(scene.tool.shape, cells),
       100.0 * expected_furrow_error(scene.tool.shape, fine), finer.empty() ? "" : ", " + finer);
+}
+
+std::string leaking_tool_warning(const Scene& scene) {
+  if (!scene.tool.carries || !is_known(scene)) return "";
+  constexpr double holds = 0.7;  // of the room within all walls; what no wall holds has the same in both
+  const TriangleMesh surface = turned(tool_surface(scene.tool), own_rotation(scene.tool));
+  const UpperSide upper(surface, scene.bed.cell_size());
+  const RoomOnTool room = room_on_tool(upper, surface, talus_slope(scene.relaxation.talus_angle));
+  if (!(room.in_cells < holds * room.within_edges)) return "";
+  return fmt::format(
+      "tool.carries: walls of the tool are thinner than a cell ({:.3g} mm), and sand runs through them: it "
+      "holds up to {:.3g} cm^3, of {:.3g} cm^3 within its walls; take more bed.cells, or thicker walls",
+      1e3 * scene.bed.cell_size(), 1e6 * room.in_cells, 1e6 * room.within_edges);
 }
 
 }  // namespace sandstroke

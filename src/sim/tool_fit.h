@@ -25,5 +25,8 @@ double expected_furrow_error(ToolShape shape, double cells);
 /// A warning if the tool is wide enough, but narrower than ten cells; otherwise empty. depth [m]: of the
 /// stroke.
 std::string coarse_tool_warning(const Scene& scene, double depth);
+/// A warning if sand would run off a tool that carries it because its walls are thinner than cells; otherwise
+/// empty. Error: input, as UpperSide.
+std::string leaking_tool_warning(const Scene& scene);
 
 }  // namespace sandstroke

@@ -131,6 +131,37 @@ TEST(ToolFit, ACoarseToolIsWarnedOfWithTheErrorToExpect) {
             std::string::npos);
 }
 
+// A mesh as a bowl of 40 mm, whose wall has a thickness of its own.
+TEST(ToolFit, WallsThinnerThanCellsAreToldWhereSandWouldRunThroughThem) {
+  Scene scene = scene_with(ToolShape::bowl, 1.0);
+  scene.tool.radius = 0.02;
+  scene.tool.height = 0.015;
+  scene.tool.carries = true;
+  for (const double wall : {0.0001, 0.0004, 0.002, 0.004})
+    for (const double turn : {0.0, 20.0}) {
+      scene.tool.shape = ToolShape::bowl;
+      scene.tool.thickness = wall;
+      scene.tool.mesh = std::make_shared<TriangleMesh>(tool_surface(scene.tool));
+      scene.tool.shape = ToolShape::mesh;
+      scene.tool.scale = 1.0;
+      scene.tool.orientation.z() = turn;
+      const std::string warning = leaking_tool_warning(scene);
+      EXPECT_EQ(warning.find("tool.carries: walls of the tool are thinner than a cell (1 mm)") == 0,
+                wall < 0.001)
+          << wall << ' ' << turn << ' ' << warning;
+      EXPECT_EQ(warning.empty(), wall >= 0.002) << wall << ' ' << turn << ' ' << warning;
+    }
+  // What has no walls holds as much within its edges.
+  for (const ToolShape shape : {ToolShape::plate, ToolShape::box, ToolShape::cylinder}) {
+    scene.tool.shape = shape;
+    scene.tool.size = {0.003, 0.02, 0.04};
+    for (const double pitch : {0.0, 20.0}) {
+      scene.tool.orientation.y() = pitch;
+      EXPECT_EQ(leaking_tool_warning(scene), "") << pitch;
+    }
+  }
+}
+
 TEST(ToolFit, MoreCellsAreExpectedToBeBetter) {
   for (const ToolShape shape : {ToolShape::sphere, ToolShape::plate})
     for (double cells = 2.0; cells < 20.0; cells += 0.5)
