@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+
+#include "core/angle.h"
 
 namespace sandstroke {
 
@@ -52,6 +55,28 @@ double ExactCap::volume() const {
 double ExactCap::operator()(double x, double y) const {
   const double r = std::hypot(x, y);
   return r < foot() ? top() - slope * r - std::sqrt(radius * radius - r * r) : 0.0;
+}
+
+double ExactHeapOnPlate::volume() const {
+  const double cosine = std::cos(to_radians(tilt)), sine = std::sin(to_radians(tilt));
+  if (sine >= slope * cosine) return 0.0;
+  // Places (u, v) on the plate lie at x = u cos, z = -u sin. What is symmetric in v is known from a half.
+  constexpr int half = 100, rim_points = 360;
+  const double side = radius / half;
+  double sum = 0.0;
+  for (int row = 0; row < half; ++row)
+    for (int col = -half; col < half; ++col) {
+      const double u = (col + 0.5) * side, v = (row + 0.5) * side;
+      if (std::hypot(u, v) >= radius) continue;
+      double height = std::numeric_limits<double>::infinity();
+      for (int i = 0; i < rim_points; ++i) {
+        const double angle = std::numbers::pi * (i + 0.5) / rim_points, at = radius * std::cos(angle);
+        height = std::min(
+            height, slope * std::hypot((u - at) * cosine, v - radius * std::sin(angle)) - (at - u) * sine);
+      }
+      sum += height;
+    }
+  return 2.0 * sum * side * side * cosine;
 }
 
 double ExactSeam::operator()(double x, double) const { return (x < seam ? before : behind) * (seam - x); }

@@ -55,6 +55,14 @@ struct ExactCap {
   double operator()(double x, double y) const;
 };
 
+/// The sand that stays on a round plate, which is turned by `tilt` [deg] about the y axis through its middle:
+/// the highest surface that is nowhere steeper than `slope` and ends at the rim.
+struct ExactHeapOnPlate {
+  double slope, radius, tilt;
+  double volume()
+      const;  ///< m^3, by quadrature, to 1e-3 of itself; 0 where the plate is as steep as the sand
+};
+
 /// The rest shape of a slope down along x over a seam of two sands, whose slopes are `before` and `behind` x
 /// = `seam`: two lines that meet there at z = 0.
 struct ExactSeam {

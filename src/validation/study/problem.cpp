@@ -17,6 +17,7 @@ const std::vector<ProblemMaker>& problem_makers() {
       {"cap", cap_problem},
       {"cut", cut_problem},
       {"wall", wall_problem},
+      {"lift", lift_problem},
       {"plunge", plunge_problem},
       {"drag", drag_problem},
       {"blade", blade_problem},

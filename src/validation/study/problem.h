@@ -155,6 +155,8 @@ Problem disc_problem(const ProblemOptions& options);
 Problem cap_problem(const ProblemOptions& options);
 Problem cut_problem(const ProblemOptions& options);
 Problem wall_problem(const ProblemOptions& options);
+// Sand that a tool lifts, against closed forms (lifted_sand.cpp).
+Problem lift_problem(const ProblemOptions& options);
 // The device's work, against closed forms (contact.cpp).
 Problem plunge_problem(const ProblemOptions& options);
 Problem drag_problem(const ProblemOptions& options);

@@ -57,6 +57,21 @@ TEST(ExactShapes, ConesAndCapsHaveTheirVolumes) {
   EXPECT_EQ(cap(0.3, 0.3), 0.0);
 }
 
+TEST(ExactShapes, AHeapOnAPlateIsAConeThatShrinksAsItIsTilted) {
+  const double cone = ExactCone{t, 0.0, 0.05}.volume();
+  EXPECT_NEAR((ExactHeapOnPlate{t, 0.05, 0.0}.volume()) / cone, 1.0, 1e-3);
+  double before = cone;
+  for (const double tilt : {10.0, 20.0, 25.0}) {
+    const double here = ExactHeapOnPlate{t, 0.05, tilt}.volume();
+    EXPECT_LT(here, 0.95 * before) << tilt;
+    before = here;
+  }
+  EXPECT_LT((ExactHeapOnPlate{t, 0.05, 29.9}.volume()), 0.02 * cone);
+  EXPECT_EQ((ExactHeapOnPlate{t, 0.05, 30.1}.volume()), 0.0);
+  EXPECT_NEAR((ExactHeapOnPlate{t, 0.1, 20.0}.volume() / ExactHeapOnPlate{t, 0.05, 20.0}.volume()), 8.0,
+              1e-9);
+}
+
 TEST(ExactShapes, ASeamsMeansAreThoseOfItsLines) {
   const ExactSeam seam{0.4, 0.7, 0.1};
   EXPECT_EQ(seam(0.1, 0.0), 0.0);
