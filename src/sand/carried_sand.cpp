@@ -131,6 +131,11 @@ void CarriedSand::know_sums(const UpperSide& upper) {
     }
   volume_ = volume.value() * grid.cell_area();
   moment_ = upper.untilted(grid.cell_area() * moment_);
+  know_shares(upper);
+}
+
+void CarriedSand::know_shares(const UpperSide& upper) {
+  if (shares_.empty() && !empty() && upper.is_tilted()) shares_ = upper.shares();
 }
 
 void CarriedSand::lay_out(const UpperSide& upper) {
@@ -303,7 +308,8 @@ void CarriedSand::visit_state(StateVisitor& state) {
 }
 
 void CarriedSand::go_on(const UpperSide& upper) {
-  shares_ = upper.is_tilted() ? upper.shares() : std::vector<UpperSide::Share>();
+  shares_.clear();
+  know_shares(upper);
   lies_on_ = upper.revision();
   is_laid_out_ = false;
 }

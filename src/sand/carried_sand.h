@@ -79,6 +79,7 @@ class CarriedSand {
   void change_columns();
   std::size_t nearest_of(const std::vector<double>& parts, std::size_t cell) const;
   void know_sums(const UpperSide& upper);
+  void know_shares(const UpperSide& upper);
   double take_from_bed(HeightField& bed, const Beside& one, double height) const;
 
   RelaxationSettings relaxation_;
@@ -86,7 +87,7 @@ class CarriedSand {
   // changed on the tool in between goes to the columns only when it is turned on: sand that lies still on a
   // tool that tilts is never averaged.
   HeightGrid thickness_, columns_, from_columns_;
-  std::vector<UpperSide::Share> shares_;  // empty: the tool is not tilted
+  std::vector<UpperSide::Share> shares_;  // empty: the tool is not tilted, or carries nothing
   double volume_ = 0.0;
   Eigen::Vector3d moment_ = Eigen::Vector3d::Zero();
   // As the tool is turned now:

@@ -103,8 +103,6 @@ void UpperSide::turn(const Eigen::Matrix3d& hand) {
     tilted_top_ = highest_points(sandstroke::turned(surface_, tilt));
     double& on_axis = tilted_top_(grid_.rows() / 2, grid_.cols() / 2);
     if ((tilted_top_ == nowhere).all()) on_axis = 0.0;  // an edge between the middles of cells
-    tilted_ = true;                                     // of which top() depends
-    share_columns();
   }
   tilted_ = tilts;
 }
@@ -182,8 +180,8 @@ UpperSide::Parts UpperSide::parts_at(const Vector2d& in_grid, double height) con
   return parts;
 }
 
-void UpperSide::share_columns() {
-  shares_.clear();
+std::vector<UpperSide::Share> UpperSide::shares() const {
+  std::vector<Share> shares;
   // Columns lie over fewer cells than before. Each is taken in four parts, whose sand goes to the four cells
   // around them: what is even stays even within 1 %.
   std::vector<Part> cells;
@@ -207,8 +205,9 @@ void UpperSide::share_columns() {
           const Parts parts = parts_at(place.head<2>(), place.z());
           for (int i = 0; i < parts.count; ++i) add(parts.of[static_cast<std::size_t>(i)]);
         }
-      for (const Part& one : cells) shares_.push_back({row * grid_.cols() + col, one.cell, one.part});
+      for (const Part& one : cells) shares.push_back({row * grid_.cols() + col, one.cell, one.part});
     }
+  return shares;
 }
 
 }  // namespace sandstroke

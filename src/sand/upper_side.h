@@ -79,13 +79,12 @@ class UpperSide {
     double part;
   };
   /// The parts of all columns of a tilted tool, each of which adds up to 1, in the order of the columns.
-  const std::vector<Share>& shares() const { return shares_; }
+  std::vector<Share> shares() const;
 
  private:
   HeightGrid highest_points(const TriangleMesh& surface) const;
   Cell nearest(const Eigen::Vector2d& place, double height) const;
   Cell nearest_within(int reach, int at_row, int at_col, const Eigen::Vector2d& place, double height) const;
-  void share_columns();
 
   TriangleMesh surface_;
   BedGeometry grid_;
@@ -94,7 +93,6 @@ class UpperSide {
   bool tilted_ = false;
   int tilts_ = 0;  // so far
   HeightGrid own_top_, tilted_top_;
-  std::vector<Share> shares_;
 };
 
 }  // namespace sandstroke
