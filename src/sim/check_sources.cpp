@@ -68,8 +68,7 @@ void check_sources(const Scene& scene, const std::string& name) {
       check_place(scene, source.at, key + ".at");
     else if (source.stroke)
       check_path(scene, source, key);
-    if (source.rate > 0.0)
-      packets += SandSources::fall_time(highest_of(source), 0.0) * scene.device.servo_rate;
+    if (source.rate > 0.0) packets += fall_time(highest_of(source), 0.0) * scene.device.servo_rate;
   }
   check_memory(packets * SandSources::bytes_per_packet(), name + ": the sand in the air from all [[source]]",
                "lower the sources, or device.servo_rate");

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "rules/force.h"
 
 namespace sandstroke {
 namespace {
@@ -39,16 +38,8 @@ void SandSources::act(HeightField& bed, double until, SandCatcher* catcher) {
     const double begin = std::max(acted_until_, nozzle.start()), end = std::min(until, nozzle.stop());
     if (begin < end) open(bed, i, begin, end, catcher);
   }
-  while (!in_air_.empty() && in_air_.front().lands < until) {
-    std::pop_heap(in_air_.begin(), in_air_.end(), later);
-    land(bed, in_air_.back(), catcher);
-    in_air_.pop_back();
-  }
+  while (const std::optional<Packet> packet = in_air_.land(until)) land(bed, *packet, catcher);
   acted_until_ = until;
-}
-
-bool SandSources::later(const Packet& one, const Packet& other) {
-  return one.lands != other.lands ? one.lands > other.lands : one.count > other.count;
 }
 
 void SandSources::open(HeightField& bed, int source, double begin, double end, const SandCatcher* catcher) {
@@ -62,9 +53,7 @@ void SandSources::open(HeightField& bed, int source, double begin, double end, c
   if (catcher)
     if (const double top = catcher->top_at(mouth->x(), mouth->y()); top < mouth->z())
       ends = std::max(ends, top);
-  in_air_.push_back(
-      {middle + fall_time(mouth->z(), ends), packets_++, mass, mouth->x(), mouth->y(), mouth->z(), source});
-  std::push_heap(in_air_.begin(), in_air_.end(), later);
+  in_air_.drop(middle + fall_time(mouth->z(), ends), {mass, mouth->x(), mouth->y(), mouth->z(), source});
 }
 
 const std::vector<CellUnder>& SandSources::cells_under(const HeightField& bed, Source& source, double x,
@@ -140,14 +129,11 @@ void SandSources::take(HeightField& bed, Source& sink, const Eigen::Vector3d& mo
   sink.rest = fraction < 1.0 ? mass + sink.rest - got : 0.0;
 }
 
-double SandSources::fall_time(double from, double to) {
-  return from > to ? std::sqrt(2.0 * (from - to) / gravity) : 0.0;  // of a NaN, too
-}
-
 std::vector<SourceLedger> SandSources::ledgers() const {
   std::vector<SourceLedger> ledgers;
   std::vector<CompensatedSum> in_air(sources_.size());
-  for (const Packet& packet : in_air_) in_air[static_cast<std::size_t>(packet.source)].add(packet.mass);
+  in_air_.visit_packets(
+      [&](const Packet& packet) { in_air[static_cast<std::size_t>(packet.source)].add(packet.mass); });
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     const Source& source = sources_[i];
     ledgers.push_back({source.poured.value(), source.landed.value(), in_air[i].value(), source.asked.value(),
@@ -185,8 +171,7 @@ void SandSources::visit_state(StateVisitor& state) {
     state.value("source.rest", source.rest);
   }
   state.value("source.acted_until", acted_until_);
-  state.list("source.in_air", in_air_);
-  state.value("source.packets", packets_);
+  state.value("source.in_air", in_air_);
   state.value("source.unsettled", unsettled_);
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "core/compensated_sum.h"
+#include "sand/falling_sand.h"
 #include "sand/height_field.h"
 #include "sim/nozzle.h"
 
@@ -40,10 +40,8 @@ class SandSources {
   /// When the last source stops [s].
   double last_stop() const;
 
-  /// The time that sand falls from one height to another [m, s]; 0 where that is no fall.
-  static double fall_time(double from, double to);
   /// Memory [bytes] that the sand of one call of act() takes in the air, from one source.
-  static constexpr double bytes_per_packet() { return sizeof(Packet); }
+  static constexpr double bytes_per_packet() { return FallingSand<Packet>::bytes_per_packet(); }
 
   /// In the order of the settings.
   std::vector<SourceLedger> ledgers() const;
@@ -68,15 +66,11 @@ class SandSources {
   };
   /// Sand in the air that left a nozzle at one time.
   struct Packet {
-    double lands;          // s
-    std::uint64_t count;   // of those before it: which one of two comes first
     double mass, x, y, z;  // kg, m, where it left
     int source;
 
     template <class State>
     void visit_state(State& state) {
-      state.value("lands", lands);
-      state.value("count", count);
       state.value("mass", mass);
       state.value("x", x);
       state.value("y", y);
@@ -84,7 +78,6 @@ class SandSources {
       state.value("source", source);
     }
   };
-  static bool later(const Packet& one, const Packet& other);
   void open(HeightField& bed, int source, double begin, double end, const SandCatcher* catcher);
   void land(HeightField& bed, const Packet& packet, SandCatcher* catcher);
   void take(HeightField& bed, Source& sink, const Eigen::Vector3d& mouth, double mass);
@@ -94,9 +87,8 @@ class SandSources {
 
   std::vector<Source> sources_;
   double density_;
-  double acted_until_ = 0.0;    // s
-  std::vector<Packet> in_air_;  // a heap: the first to land is in front
-  std::uint64_t packets_ = 0;   // so far
+  double acted_until_ = 0.0;  // s
+  FallingSand<Packet> in_air_;
   bool unsettled_ = false;
 };
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "rules/force.h"
-#include "sim/sand_sources.h"
 
 namespace sandstroke {
 
@@ -31,12 +30,25 @@ void ToolLoad::relax(const Tool& tool, HeightField& bed, const Eigen::Vector3d& 
   spilled_.add(outcome.spilled);
   most_ = std::max(most_, carried_.volume());
   for (const CarriedSand::Spill& spill : outcome.spills) {
-    const double fall = SandSources::fall_time(spill.from, bed(spill.row, spill.col));
-    falling_.drop(spill.row, spill.col, spill.volume, time + fall);
+    const double fall = fall_time(spill.from, bed(spill.row, spill.col));
+    falling_.drop(time + fall, {spill.volume, spill.row, spill.col});
   }
   has_landed_ = false;
   constexpr double rounding = 1e-15;  // m^3
   has_moved_ = outcome.ran_on + outcome.spilled > rounding;
+}
+
+void ToolLoad::land(HeightField& bed, double until) {
+  while (const std::optional<Packet> packet = falling_.land(until)) {
+    bed.set(packet->row, packet->col, bed(packet->row, packet->col) + packet->volume / bed.cell_area());
+    has_landed_ = true;
+  }
+}
+
+double ToolLoad::volume_in_air() const {
+  CompensatedSum sum;
+  falling_.visit_packets([&](const Packet& packet) { sum.add(packet.volume); });
+  return sum.value();
 }
 
 LoadOnTool ToolLoad::on_tool(const UpperSide& upper, double level) const {
@@ -61,7 +73,7 @@ LoadOnTool ToolLoad::on_tool(const UpperSide& upper, double level) const {
 }
 
 double ToolLoad::given_volume() const {
-  return spilled_.value() - falling_.volume() - lifted_.value() - ran_on_.value() - caught_.value();
+  return spilled_.value() - volume_in_air() - lifted_.value() - ran_on_.value() - caught_.value();
 }
 
 LoadLedger ToolLoad::ledger() const {
@@ -69,7 +81,7 @@ LoadLedger ToolLoad::ledger() const {
           ran_on_.value(),
           caught_.value(),
           spilled_.value(),
-          falling_.volume(),
+          volume_in_air(),
           carried_.volume(),
           most_};
 }

@@ -41,9 +41,7 @@ class ToolLoad {
   /// has fallen.
   void relax(const Tool& tool, HeightField& bed, const Eigen::Vector3d& tip, double time);
   /// Lands what comes down before this time [s].
-  void land(HeightField& bed, double until) {
-    if (falling_.land(bed, until)) has_landed_ = true;
-  }
+  void land(HeightField& bed, double until);
   /// Whether sand has landed since the last relax().
   bool has_landed() const { return has_landed_; }
   /// Whether the last relax() moved sand onto the tool or from it.
@@ -63,8 +61,22 @@ class ToolLoad {
   void go_on(const UpperSide& upper) { carried_.go_on(upper); }
 
  private:
+  /// What spilled over one cell of the bed.
+  struct Packet {
+    double volume;  // m^3
+    int row, col;
+
+    template <class State>
+    void visit_state(State& state) {
+      state.value("volume", volume);
+      state.value("row", row);
+      state.value("col", col);
+    }
+  };
+  double volume_in_air() const;
+
   CarriedSand carried_;
-  FallingSand falling_;
+  FallingSand<Packet> falling_;
   double density_;
   CompensatedSum lifted_, ran_on_, caught_, spilled_;  // m^3
   double most_ = 0.0;                                  // m^3
