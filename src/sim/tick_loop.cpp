@@ -92,6 +92,7 @@ void TickLoop::displace(TickRecord& record, const TickInput& tick) {
   record.displaced_volume = interaction.displaced_volume;
   record.contact = interaction.contact;
   if (sand_.load()) {
+    sand_.load()->pass(1.0 / scene().device.servo_rate);
     const LoadOnTool load = sand_.load_on_tool();
     record.load = load.weight;
     record.wrench.torque += load.torque;

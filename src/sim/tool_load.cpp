@@ -51,11 +51,25 @@ double ToolLoad::volume_in_air() const {
   return sum.value();
 }
 
+void ToolLoad::pass(double tick) {
+  const double missing = carried_.volume() - felt_volume_;
+  const Eigen::Vector3d away = carried_.moment() - felt_moment_;
+  constexpr double nothing = 1e-15;  // m^3, at a metre from the tip
+  if (std::abs(missing) < nothing && away.cwiseAbs().maxCoeff() < nothing) {
+    felt_volume_ = carried_.volume();
+    felt_moment_ = carried_.moment();
+    return;
+  }
+  const double fraction = std::min(1.0, tick / settling);
+  felt_volume_ += fraction * missing;
+  felt_moment_ += fraction * away;
+}
+
 LoadOnTool ToolLoad::on_tool(const UpperSide& upper, double level) const {
   LoadOnTool load;
-  if (carried_.empty()) return load;
+  if (felt_volume_ == 0.0) return load;
   double part = 1.0;
-  if (level > -std::numeric_limits<double>::infinity()) {
+  if (!carried_.empty() && level > -std::numeric_limits<double>::infinity()) {
     double above = 0.0, whole = 0.0;
     for (Eigen::Index i = 0; i < carried_.thickness().size(); ++i) {
       const double here = carried_.thickness().data()[i];
@@ -66,8 +80,8 @@ LoadOnTool ToolLoad::on_tool(const UpperSide& upper, double level) const {
     part = above / whole;
   }
   const double per_volume = part * density_ * gravity;
-  const Eigen::Vector3d moment = upper.turned(carried_.moment());
-  load.weight = per_volume * carried_.volume();
+  const Eigen::Vector3d moment = upper.turned(felt_moment_);
+  load.weight = per_volume * felt_volume_;
   load.torque = per_volume * Eigen::Vector3d(-moment.y(), moment.x(), 0.0);
   return load;
 }
@@ -94,6 +108,8 @@ void ToolLoad::visit_state(StateVisitor& state) {
   state.value("load.caught", caught_);
   state.value("load.spilled", spilled_);
   state.value("load.most", most_);
+  state.value("load.felt_volume", felt_volume_);
+  state.value("load.felt_moment", felt_moment_);
   state.value("load.has_moved", has_moved_);
   state.value("load.has_landed", has_landed_);
 }

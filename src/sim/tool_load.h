@@ -47,6 +47,10 @@ class ToolLoad {
   /// Whether the last relax() moved sand onto the tool or from it.
   bool has_moved() const { return has_moved_; }
 
+  /// A tick of so many seconds passes. What a relaxation moved at once takes `settling` seconds to run in
+  /// truth, and so the hand feels it come and go.
+  void pass(double tick);
+  static constexpr double settling = 0.02;  ///< s
   /// What the tool feels of it. level [m above the tip]: of the sand around; what lies below that presses on
   /// the tool as all sand does, which the law of force knows. -infinity: the tool touches no sand.
   LoadOnTool on_tool(const UpperSide& upper, double level) const;
@@ -80,6 +84,8 @@ class ToolLoad {
   double density_;
   CompensatedSum lifted_, ran_on_, caught_, spilled_;  // m^3
   double most_ = 0.0;                                  // m^3
+  double felt_volume_ = 0.0;                           // m^3, and its moment as CarriedSand::moment() [m^4]
+  Eigen::Vector3d felt_moment_ = Eigen::Vector3d::Zero();
   bool has_moved_ = false, has_landed_ = false;
 };
 
