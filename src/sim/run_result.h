@@ -34,7 +34,8 @@ struct TickRecord {
   double carried = 0.0;      ///< kg of sand on the tool
   double load = 0.0;         ///< N, the weight of it that the tool feels
   double load_given = 0.0;  ///< N, of that, what the device gives; gravity keeps energy, so no law returns it
-  Wrench wrench = {};       ///< by any law but the paper's: force and torque on the bed's axes
+  double load_stiffness = 0.0;  ///< N/m, by which it grows as the tool rises
+  Wrench wrench = {};           ///< by any law but the paper's: force and torque on the bed's axes
   double level = std::numeric_limits<double>::quiet_NaN();  ///< m, sand level under the tool; NaN: lifted
   double depth = 0.0;             ///< m, of the tip below the level; negative = above
   double displaced_volume = 0.0;  ///< m^3, displaced in this tick
@@ -61,6 +62,7 @@ struct TickRecord {
     state.value("carried", carried);
     state.value("load", load);
     state.value("load_given", load_given);
+    state.value("load_stiffness", load_stiffness);
     state.value("wrench", wrench);
     state.value("level", level);
     state.value("depth", depth);

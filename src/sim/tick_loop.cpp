@@ -95,6 +95,7 @@ void TickLoop::displace(TickRecord& record, const TickInput& tick) {
     sand_.load()->pass(1.0 / scene().device.servo_rate);
     const LoadOnTool load = sand_.load_on_tool();
     record.load = load.weight;
+    record.load_stiffness = load.stiffness;
     record.wrench.torque += load.torque;
   }
   if (!floor_) return;

@@ -68,20 +68,24 @@ void ToolLoad::pass(double tick) {
 LoadOnTool ToolLoad::on_tool(const UpperSide& upper, double level) const {
   LoadOnTool load;
   if (felt_volume_ == 0.0) return load;
-  double part = 1.0;
+  double part = 1.0, growth = 0.0;  // 1/m
   if (!carried_.empty() && level > -std::numeric_limits<double>::infinity()) {
     double above = 0.0, whole = 0.0;
     for (Eigen::Index i = 0; i < carried_.thickness().size(); ++i) {
       const double here = carried_.thickness().data()[i];
       if (here == 0.0) continue;
-      above += std::clamp(upper.top().data()[i] + here - level, 0.0, here);
+      const double stands = upper.top().data()[i] + here - level;
+      above += std::clamp(stands, 0.0, here);
       whole += here;
+      if (stands > 0.0 && stands < here) growth += 1.0;
     }
     part = above / whole;
+    growth /= whole;
   }
   const double per_volume = part * density_ * gravity;
   const Eigen::Vector3d moment = upper.turned(felt_moment_);
   load.weight = per_volume * felt_volume_;
+  load.stiffness = growth * density_ * gravity * std::min(felt_volume_, carried_.volume());
   load.torque = per_volume * Eigen::Vector3d(-moment.y(), moment.x(), 0.0);
   return load;
 }

@@ -22,6 +22,7 @@ struct LoadLedger {
 /// What the sand on a tool does to it.
 struct LoadOnTool {
   double weight = 0.0;                               ///< N
+  double stiffness = 0.0;                            ///< N/m, by which it grows as the tool rises
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< N m, about the tip, on the bed's axes
 };
 

@@ -68,7 +68,7 @@ TEST(ToolLoad, TheHandBearsItsWeightAndNoMore) {
 TEST(ToolLoad, SandBelowTheLevelAroundPressesAsAllSandDoes) {
   const Scene scene = scene_of_plate();
   SteppedSimulation run(scene, starting_bed(scene.bed));
-  double before = 0.0, most = 0.0;
+  double before = 0.0, most = 0.0, risen = 0.0, heaviest = 0.0;
   for (double z = buried; z < 0.02; z += 1e-4) {
     const TickRecord& tick = run.tick(hand_at({0.0, 0.0, z}), {.orientation = true});
     most = std::max(most, tick.carried);
@@ -76,11 +76,18 @@ TEST(ToolLoad, SandBelowTheLevelAroundPressesAsAllSandDoes) {
     // No step, not even where the plate leaves the sand and much of it spills at once.
     EXPECT_LT(std::abs(tick.load - before), 0.01 + most * gravity * 1e-3 / ToolLoad::settling) << z;
     before = tick.load;
+    // It grows as a spring would that pulls the tool back, and the margin of passivity knows that.
+    if (tick.load > heaviest) risen += 1e-4 * tick.load_stiffness;
+    heaviest = std::max(heaviest, tick.load);
+    EXPECT_LE(tick.load_stiffness, scene.strength.density * gravity * 0.066 * 0.066) << z;
+    EXPECT_LE(tick.passivity_margin, scene.device.damping + scene.device.hand_damping -
+                                         0.5 * tick.load_stiffness / scene.device.servo_rate + 1e-12);
     if (z == buried) {
       EXPECT_GT(tick.carried, 0.05);
       EXPECT_LT(tick.load, 0.05 * tick.carried * gravity);
     }
   }
+  EXPECT_NEAR(risen / heaviest, 1.0, 0.35);
 }
 
 TEST(ToolLoad, TorqueIsThatOfItsCentreOfMass) {
