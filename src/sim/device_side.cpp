@@ -75,7 +75,8 @@ void DeviceSide::feel(TickRecord& record) {
   if (record.load > 0.0) bear(computed, record);
   record.device_force = late_force_.act(computed);
   record.dropped = late_force_.dropped();
-  record.passivity_margin = passivity_margin(felt.stiffness + record.load_stiffness, felt.drag, device_.settings());
+  record.passivity_margin =
+      passivity_margin(felt.stiffness + record.load_stiffness, felt.drag, device_.settings());
   check_numbers(record);
 }
 
