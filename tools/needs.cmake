@@ -1,13 +1,14 @@
-# Looks for all that a build needs, before anything is compiled, and lists all missing packages at once.
+# Looks for all that a build needs, before anything is compiled, and lists all missing packages at once. The Python module
+# and the tests are left out where theirs are missing, unless they are asked for.
 set(missing "")
 set(missing_packages "")
-file(READ tools/setup setup)
+file(READ tools/packages packages)
 
 # sandstroke_needs(FOUND PACKAGE WHAT COMMAND): runs COMMAND, which looks for WHAT. If FOUND is then not true, Debian's
 # PACKAGE is missing.
 macro(sandstroke_needs found package what command)
-  if(NOT setup MATCHES "[ \n]${package}[ \n]")
-    message(FATAL_ERROR "tools/setup does not install ${package} (tools/needs.cmake)")
+  if(NOT packages MATCHES "\n[a-z]+ +${package} ")
+    message(FATAL_ERROR "tools/packages does not list ${package} (tools/needs.cmake)")
   endif()
   cmake_language(EVAL CODE "${command}")
   if(NOT ${found})
@@ -50,26 +51,54 @@ elseif(SANDSTROKE_GL STREQUAL "egl" OR NOT OSMESA_FOUND)
   sandstroke_needs(EGL_FOUND libegl-dev "EGL (pictures)" "")
 endif()
 
-if(SANDSTROKE_PYTHON)
+# Between these two, what is missing concerns only a part: where its option is "auto", the part is then left out. The
+# option is ON or OFF from there on.
+macro(sandstroke_begin_part)
+  set(missing_before "${missing}")
+  set(packages_before "${missing_packages}")
+  set(missing "")
+  set(missing_packages "")
+endmacro()
+macro(sandstroke_end_part option what)
+  if(missing AND NOT ${option} STREQUAL "auto")
+    string(APPEND missing "\n  (-D${option}=OFF leaves these out)")
+  elseif(${option} STREQUAL "auto")
+    set(${option} ON)
+    if(missing)
+      message(STATUS "${what} left out, for want of${missing}\n   (-D${option}=ON insists on them)")
+      set(${option} OFF)
+      set(missing "")
+      set(missing_packages "")
+    endif()
+  endif()
+  set(missing "${missing_before}${missing}")
+  list(PREPEND missing_packages ${packages_before})
+endmacro()
+
+sandstroke_begin_part()
+if(SANDSTROKE_PYTHON OR SANDSTROKE_PYTHON STREQUAL "auto")
   if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)  # prefers Debian's, which has the packages for the tests
     set(Python_EXECUTABLE /usr/bin/python3)
   endif()
-  sandstroke_needs(Python_FOUND python3-dev "Python 3.9 with its headers (or -DSANDSTROKE_PYTHON=OFF)"
+  sandstroke_needs(Python_FOUND python3-dev "Python 3.9 with its headers"
                    "find_package(Python 3.9 QUIET COMPONENTS Interpreter Development.Module)")
-  sandstroke_needs(pybind11_FOUND pybind11-dev "pybind11 2.9 (or -DSANDSTROKE_PYTHON=OFF)"
+  sandstroke_needs(pybind11_FOUND pybind11-dev "pybind11 2.9"
                    "find_package(pybind11 2.9 CONFIG QUIET)")
 endif()
+sandstroke_end_part(SANDSTROKE_PYTHON "The Python module is")
 
-if(SANDSTROKE_TESTS)
-  sandstroke_needs(MATIO_FOUND libmatio-dev "matio, which writes .mat (or -DSANDSTROKE_TESTS=OFF)"
+sandstroke_begin_part()
+if(SANDSTROKE_TESTS OR SANDSTROKE_TESTS STREQUAL "auto")
+  sandstroke_needs(MATIO_FOUND libmatio-dev "matio, which writes .mat"
                    "pkg_check_modules(MATIO QUIET IMPORTED_TARGET matio)")
-  sandstroke_needs(GTest_FOUND libgtest-dev "googletest (or -DSANDSTROKE_TESTS=OFF)" "find_package(GTest QUIET)")
-  sandstroke_needs(GMOCK_INCLUDE_DIR libgmock-dev "gmock/gmock.h (or -DSANDSTROKE_TESTS=OFF)"
+  sandstroke_needs(GTest_FOUND libgtest-dev "googletest" "find_package(GTest QUIET)")
+  sandstroke_needs(GMOCK_INCLUDE_DIR libgmock-dev "gmock/gmock.h"
                    "find_path(GMOCK_INCLUDE_DIR gmock/gmock.h)")
   if(NOT SANDSTROKE_SANITIZE)
-    sandstroke_needs(benchmark_FOUND libbenchmark-dev "benchmark (or -DSANDSTROKE_TESTS=OFF)" "find_package(benchmark QUIET)")
+    sandstroke_needs(benchmark_FOUND libbenchmark-dev "benchmark" "find_package(benchmark QUIET)")
   endif()
 endif()
+sandstroke_end_part(SANDSTROKE_TESTS "The tests are")
 
 if(missing)
   list(REMOVE_DUPLICATES missing_packages)
