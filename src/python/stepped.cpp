@@ -83,8 +83,9 @@ py::list sources_of(Stepped& stepped) {
 }
 
 py::object load_of(Stepped& stepped) {
-  const auto load = stepped.use(
-      [](SteppedSimulation& s) { return s.load() ? std::optional(s.load()->ledger()) : std::optional<LoadLedger>(); });
+  const auto load = stepped.use([](SteppedSimulation& s) {
+    return s.load() ? std::optional(s.load()->ledger()) : std::optional<LoadLedger>();
+  });
   if (!load) return py::none();
   py::dict row;
   visit_load_fields([&](const FieldText& field, const auto& of) { row[field.name] = of(*load); });
