@@ -8,13 +8,15 @@
 run, read, compare and render are functions; Simulation is a device that is stepped tick by tick, step_many steps many at once. All numbers are in SI units. The results have the same bits as those of the command `sandstroke run`.
 """
 
+from . import _sandstroke
 from ._arguments import Laws, Scene, SceneLike, StrokeLike
 from ._judging import bench, stress
 from ._picture import render
 from ._run import Comparison, Run, compare, read, run
 from ._sandstroke import Error, FileError, InputError, ResultWarning, Tick, UnstableError
-from ._sandstroke import version as __version__
 from ._simulation import Simulation, Ticks, step_many
+
+__version__ = _sandstroke.version
 
 __all__ = [
     "Comparison", "Error", "FileError", "InputError", "Laws", "ResultWarning", "Run", "Scene", "SceneLike", "Simulation", "StrokeLike", "Tick",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import sys
 from collections.abc import Callable, Mapping
 from typing import Any, Union
 
@@ -67,7 +68,7 @@ class Scene:
 
     def __init__(self, scene: SceneLike = {}, settings: Mapping[str, Any] | None = None) -> None:
         if isinstance(scene, Scene):
-            self._here = _core._scene_of_text(scene.text, scene._here.folder, [], _overrides(settings))
+            self._here: _core._Scene = _core._scene_of_text(scene.text, scene._here.folder, [], _overrides(settings))
         elif isinstance(scene, Mapping):
             self._here = _core._scene_of_text("", os.getcwd(), _overrides(scene), _overrides(settings))
         elif isinstance(scene, str) and "\n" in scene:
@@ -78,7 +79,7 @@ class Scene:
             raise _core.InputError(f"scene: give a TOML file, a mapping or a Scene, not {type(scene).__name__}")
 
     @classmethod
-    def _of(cls, here: Any) -> Scene:
+    def _of(cls, here: _core._Scene) -> Scene:
         scene = cls.__new__(cls)
         scene._here = here
         return scene
@@ -90,7 +91,10 @@ class Scene:
 
     def to_dict(self) -> dict[str, Any]:
         """Every setting: {"bed": {"size": [0.3, 0.2], ...}, ...}."""
-        import tomllib  # of Python 3.11
+        if sys.version_info >= (3, 11):
+            import tomllib
+        else:
+            import tomli as tomllib  # the same, for older Pythons
 
         return tomllib.loads(self.text)
 
@@ -105,7 +109,7 @@ class Scene:
                 raise KeyError(key)
         return value
 
-    def __reduce__(self) -> Any:
+    def __reduce__(self) -> tuple[Callable[[str, str], Scene], tuple[str, str]]:
         return _scene_again, (self.text, os.fspath(self._here.folder))
 
     def __repr__(self) -> str:
@@ -134,10 +138,16 @@ A run fails if a law makes or loses sand, or returns NaN or infinity.
 IN_ARRAYS = "<arrays>"  # the file name in a scene of a stroke that is in no file
 
 
-def pen_states(pen_down: Any) -> np.ndarray:
+def is_masked(values: Any) -> bool:
+    """True if a value is masked."""
+    look: Callable[[Any], bool] = np.ma.is_masked  # which has no types in numpy 1.24
+    return look(values)
+
+
+def pen_states(pen_down: Any) -> npt.NDArray[np.uint8]:
     """1 where a value counts as true, as in an `if`, else 0."""
     states = np.asarray(pen_down)
-    if np.ma.is_masked(pen_down):
+    if is_masked(pen_down):
         raise _core.InputError("stroke: pen_down has masked values; fill them, or leave these samples out")
     if states.dtype.kind not in "biufO" or (states.dtype.kind == "f" and np.isnan(states).any()):
         raise _core.InputError("stroke: pen_down must be true or false, or numbers; 0 is false")
@@ -164,7 +174,7 @@ def stroke_columns(stroke: Any) -> dict[str, Any]:
     return {"time": table[:, 0], "position": table[:, 1:]}
 
 
-def with_stroke(scene: SceneLike, stroke: StrokeLike | None, settings: Mapping[str, Any] | None) -> tuple[Any, Any]:
+def with_stroke(scene: SceneLike, stroke: StrokeLike | None, settings: Mapping[str, Any] | None) -> tuple[_core._Scene, dict[str, Any] | None]:
     """The scene that plays the stroke, and its samples if they are not in a file."""
     if stroke is None:
         whole = Scene(scene, settings)
@@ -177,13 +187,13 @@ def with_stroke(scene: SceneLike, stroke: StrokeLike | None, settings: Mapping[s
     return Scene(scene, {"stroke.file": IN_ARRAYS, **(settings or {})})._here, stroke_columns(stroke)
 
 
-def check_laws(laws: Laws) -> dict[str, Any]:
+def check_laws(laws: Laws) -> dict[str, Callable[..., Any]]:
     """The laws as a dict. The extension module checks names and functions."""
     if not isinstance(laws, Mapping):
         raise _core.InputError('laws: give {"relaxation": f}, {"displacement": f} or {"force": f}, or several of them')
     return dict(laws)
 
 
-def with_laws(here: Any, laws: Laws | None) -> Any:
+def with_laws(here: _core._Scene, laws: Laws | None) -> _core._Scene:
     """The scene with the user's laws."""
     return here if laws is None else _core._with_laws(here, check_laws(laws))

@@ -19,7 +19,8 @@ def bench(laws: Laws, folder: str | os.PathLike[str] = "bench", *, parameters: S
     as model.parameters. quick=False takes finer grids. problems: names (`sandstroke bench --help`); default:
     those in which such laws take part. A Python law may take minutes.
     """
-    return json.loads(_core._bench(check_laws(laws), _four(parameters), os.fspath(folder), quick, list(problems)))
+    page: dict[str, Any] = json.loads(_core._bench(check_laws(laws), _four(parameters), os.fspath(folder), quick, list(problems)))
+    return page
 
 
 def stress(laws: Laws, *, parameters: Sequence[float] = (), quick: bool = True) -> dict[str, Any]:
@@ -27,7 +28,8 @@ def stress(laws: Laws, *, parameters: Sequence[float] = (), quick: bool = True) 
 
     Gives the page's data: "cases" have a verdict and whether it was a surprise.
     """
-    return json.loads(_core._stress(check_laws(laws), _four(parameters), quick))
+    page: dict[str, Any] = json.loads(_core._stress(check_laws(laws), _four(parameters), quick))
+    return page
 
 
 def _four(parameters: Sequence[float]) -> list[float]:

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _sandstroke as _core
 from ._arguments import Array, Scene, SceneLike
@@ -14,7 +15,7 @@ from ._run import Run
 
 def render(sand: Run | Array, scene: SceneLike | None = None, *, start: Array | None = None,
            floor: Array | None = None, tool: Sequence[float] | None = None, orientation: Sequence[float] = (0.0, 0.0, 0.0, 1.0),
-           **view: Any) -> np.ndarray:
+           **view: Any) -> npt.NDArray[np.uint8]:
     """A picture of a run's end, or of heights [m], as an array of 8 bits: (height, width, 3).
 
     scene: the scene of these heights; default: the run's. start: heights at the start [m], which determine camera and

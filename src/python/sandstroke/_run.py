@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _sandstroke as _core
 from ._arguments import Array, Laws, Scene, SceneLike, StrokeLike, with_laws, with_stroke
@@ -20,31 +21,31 @@ if TYPE_CHECKING:
 class Run:
     """The results of a run. Its arrays are read only and not copies."""
 
-    def __init__(self, kept: Any) -> None:
+    def __init__(self, kept: _core._Run) -> None:
         self._kept = kept
 
     @property
-    def final(self) -> np.ndarray:
+    def final(self) -> npt.NDArray[np.float64]:
         """Heights at the end [m]: rows along y, columns along x."""
         return self._kept.final
 
     @property
-    def initial(self) -> np.ndarray:
+    def initial(self) -> npt.NDArray[np.float64]:
         """Heights at the start [m], as final."""
         return self._kept.initial
 
     @property
-    def floor(self) -> np.ndarray | None:
+    def floor(self) -> npt.NDArray[np.float64] | None:
         """Floor under the sand [m], as final: stones, or the bottom of the bed. NaN where there is none; None without any."""
         return self._kept.floor
 
     @property
-    def x(self) -> np.ndarray:
+    def x(self) -> npt.NDArray[np.float64]:
         """Centres of the columns [m]."""
         return self._kept.x
 
     @property
-    def y(self) -> np.ndarray:
+    def y(self) -> npt.NDArray[np.float64]:
         """Centres of the rows [m]."""
         return self._kept.y
 
@@ -54,17 +55,17 @@ class Run:
         return self._kept.cell_size
 
     @property
-    def frames(self) -> np.ndarray:
+    def frames(self) -> npt.NDArray[np.float64]:
         """Heights during the run [m], if output.frames is set: (frame, row, column)."""
         return self._kept.frames
 
     @property
-    def frame_times(self) -> np.ndarray:
+    def frame_times(self) -> npt.NDArray[np.float64]:
         """Times of the frames [s]."""
         return self._kept.frame_times
 
     @cached_property
-    def trace(self) -> dict[str, np.ndarray]:
+    def trace(self) -> dict[str, npt.NDArray[Any]]:
         """Every tick, by name: time [s], device_force [N] (n, 3), depth [m], torque [N m], contact ...
 
         `to_xarray("trace")` has the same with units and meanings.
@@ -72,14 +73,15 @@ class Run:
         return {name: array for name, _, _, array, _ in self._kept.trace_columns()}
 
     @cached_property
-    def relaxations(self) -> dict[str, np.ndarray]:
+    def relaxations(self) -> dict[str, npt.NDArray[Any]]:
         """Every relaxation, by name: time [s], passes, residual, moved_volume [m^3]."""
         return {name: array for name, _, _, array, _ in self._kept.relaxation_columns()}
 
     @cached_property
     def summary(self) -> dict[str, Any]:
         """The output of `sandstroke run --json`. Of a run that was read from a file: what the file tells of it."""
-        return json.loads(self._kept.summary) or {}
+        summary: dict[str, Any] = json.loads(self._kept.summary)
+        return summary or {}
 
     @property
     def scene(self) -> Scene:
@@ -103,7 +105,7 @@ class Run:
                 "y": ("y", self.y, {"units": "m", "long_name": "centre of a row of cells"}),
                 "x": ("x", self.x, {"units": "m", "long_name": "centre of a column of cells"}),
             }
-            heights = {
+            heights: dict[str, tuple[tuple[str, ...], npt.NDArray[np.float64], dict[str, str]]] = {
                 "initial": (("y", "x"), self.initial, {"units": "m", "long_name": "height of the sand at the start"}),
                 "final": (("y", "x"), self.final, {"units": "m", "long_name": "height of the sand at the end"}),
             }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _sandstroke as _core
-from ._arguments import Array, Laws, Scene, SceneLike, with_laws
+from ._arguments import Array, Laws, Scene, SceneLike, is_masked, with_laws
 from ._sandstroke import FileError, InputError, Tick
 
 
@@ -34,9 +34,9 @@ class Simulation:
             relaxes = slips
         self._take(_core._Simulation(with_laws(Scene(scene, settings)._here, laws), relaxes, surface))
 
-    def _take(self, stepped: Any) -> None:
+    def _take(self, stepped: _core._Simulation) -> None:
         self._stepped = stepped
-        self.tick = stepped.tick
+        setattr(self, "tick", stepped.tick)  # type checkers refuse self.tick = ...
 
     def copy(self) -> Simulation:
         """Returns a copy that goes on by itself, with the same bits: to try something and come back.
@@ -116,12 +116,12 @@ class Simulation:
         self._stepped.lift()
 
     @property
-    def heights(self) -> np.ndarray:
+    def heights(self) -> npt.NDArray[np.float64]:
         """The sand as it is now [m]: rows along y, columns along x; a copy."""
         return self._stepped.heights
 
     @property
-    def floor(self) -> np.ndarray | None:
+    def floor(self) -> npt.NDArray[np.float64] | None:
         """Stones and the bottom under the sand [m]; nan where there is nothing. None without any. A copy."""
         return self._stepped.floor
 
@@ -150,12 +150,12 @@ class Simulation:
         return self._stepped.volume
 
     @property
-    def x(self) -> np.ndarray:
+    def x(self) -> npt.NDArray[np.float64]:
         """Centres of the columns [m]."""
         return self._stepped.x
 
     @property
-    def y(self) -> np.ndarray:
+    def y(self) -> npt.NDArray[np.float64]:
         """Centres of the rows [m]."""
         return self._stepped.y
 
@@ -172,16 +172,16 @@ class Simulation:
 class Ticks:
     """The ticks of many simulations: arrays (simulation, tick), vectors (simulation, tick, 3). As in Tick."""
 
-    time: npt.NDArray[Any]
-    force: npt.NDArray[Any]
-    sand_force: npt.NDArray[Any]
-    torque: npt.NDArray[Any]
-    depth: npt.NDArray[Any]
-    level: npt.NDArray[Any]
-    contact: npt.NDArray[Any]
-    carried: npt.NDArray[Any]
-    displaced_volume: npt.NDArray[Any]
-    position: npt.NDArray[Any]
+    time: npt.NDArray[np.float64]
+    force: npt.NDArray[np.float64]
+    sand_force: npt.NDArray[np.float64]
+    torque: npt.NDArray[np.float64]
+    depth: npt.NDArray[np.float64]
+    level: npt.NDArray[np.float64]
+    contact: npt.NDArray[np.bool_]
+    carried: npt.NDArray[np.float64]
+    displaced_volume: npt.NDArray[np.float64]
+    position: npt.NDArray[np.float64]
 
 
 def step_many(simulations: Sequence[Simulation], hands: Array, *, velocities: Array | None = None,
@@ -192,18 +192,20 @@ def step_many(simulations: Sequence[Simulation], hands: Array, *, velocities: Ar
     Simulation.tick(), for all ticks; an array of one tick or simulation counts for all. threads: 0: all cores. The
     bits are those of tick(). Where a simulation fails, the others go on to the end; then its error is raised.
     """
-    hands = np.asarray(np.ma.filled(hands, np.nan), dtype=float)
+    filled: Callable[[Array, float], npt.NDArray[Any]] = np.ma.filled  # which has no types in numpy 1.24
+    hands = np.asarray(filled(hands, np.nan), dtype=float)
     if hands.ndim != 3 or hands.shape[0] != len(simulations) or hands.shape[2] != 3:
         raise InputError(f"hands: give an array of {len(simulations)} simulations x ticks x 3 numbers, not "
                          f"{' x '.join(map(str, hands.shape))}")
+    size = hands.shape[:2]
 
-    def for_all(name: str, given: Array, width: tuple[int, ...], kind: type) -> Array:
-        if np.ma.is_masked(given):
+    def for_all(name: str, given: Array, width: tuple[int, ...], kind: type[bool] | type[float]) -> npt.NDArray[Any]:
+        if is_masked(given):
             raise InputError(f"{name}: some of it is masked")
         try:
-            return np.broadcast_to(np.asarray(given, dtype=kind), hands.shape[:2] + width)
+            return np.broadcast_to(np.asarray(given, dtype=kind), size + width)
         except ValueError:
-            raise InputError(f"{name}: does not fit {hands.shape[0]} simulations x {hands.shape[1]} ticks") from None
+            raise InputError(f"{name}: does not fit {size[0]} simulations x {size[1]} ticks") from None
 
     fields = _core._step_many([one._stepped for one in simulations], hands, for_all("down", down, (), bool),
                               None if velocities is None else for_all("velocities", velocities, (3,), float),
