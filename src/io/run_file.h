@@ -16,8 +16,9 @@ namespace sandstroke {
 
 /// The group of attributes that visit_error_fields() names.
 inline constexpr const char* error_group = "/error_estimate";
-/// The group of the columns that visit_source_fields() names, over its scale `source`.
+/// The group of attributes that visit_load_fields() names.
 inline constexpr const char* load_group = "/load";
+/// The group of the columns that visit_source_fields() names, over its scale `source`.
 inline constexpr const char* source_group = "/sources";
 /// Where a run file has the sand on the tool in frame k, if any lies there.
 std::string load_dataset(int k);

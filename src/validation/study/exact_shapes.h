@@ -59,8 +59,8 @@ struct ExactCap {
 /// the highest surface that is nowhere steeper than `slope` and ends at the rim.
 struct ExactHeapOnPlate {
   double slope, radius, tilt;
-  double volume()
-      const;  ///< m^3, by quadrature, to 1e-3 of itself; 0 where the plate is as steep as the sand
+  /// m^3, by quadrature, to 1e-3 of itself; 0 where the plate is as steep as the sand.
+  double volume() const;
 };
 
 /// The rest shape of a slope down along x over a seam of two sands, whose slopes are `before` and `behind` x

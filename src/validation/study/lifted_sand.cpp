@@ -54,9 +54,8 @@ Problem lift_problem(const ProblemOptions& options) {
   Problem problem{"lift",
                   "Sand on a lifted disc",
                   "A disc is lifted out of sand, level or tilted; the truth is the volume of what stays on "
-                  "it: a cone over "
-                  "its rim, less its top where it was not buried as deep, or the lower envelope of cones "
-                  "over a tilted rim.",
+                  "it: a cone over its rim, less its top where it was not buried as deep, or the lower "
+                  "envelope of cones over a tilted rim.",
                   "volume_error",
                   "sand that stays on the disc, relative error",
                   "",
