@@ -12,6 +12,7 @@
 #include "core/warning.h"
 #include "haptics/stroke_coverage.h"
 #include "import/import_stroke.h"
+#include "import/sample_files.h"
 #include "io/stroke_file.h"
 #include "io/stroke_format.h"
 

@@ -14,7 +14,7 @@
 #include "core/warning.h"
 #include "haptics/stroke_coverage.h"
 #include "haptics/stroke_quality.h"
-#include "import/table_layout.h"
+#include "import/table_option.h"
 #include "io/recording_file.h"
 #include "io/stroke_file.h"
 #include "record/recording_json.h"

@@ -6,7 +6,7 @@
 #include "cli/commands.h"
 #include "cli/parse_number.h"
 #include "core/error.h"
-#include "import/table_layout.h"
+#include "import/table_option.h"
 #include "io/key_table.h"
 
 namespace sandstroke {

@@ -1,7 +1,7 @@
 #include "fit/felt_stroke.h"
 
 #include "core/error.h"
-#include "import/import_stroke.h"
+#include "import/sample_files.h"
 #include "io/scene_toml.h"
 #include "io/surface_file.h"
 #include "run/run_scene.h"

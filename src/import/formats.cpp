@@ -22,7 +22,7 @@
 #include "import/ros1_bag.h"
 #include "import/ros2_bag.h"
 #include "import/svg.h"
-#include "import/table_layout.h"
+#include "import/table_option.h"
 #include "import/text_parts.h"
 #include "import/thr.h"
 #include "import/unipen.h"

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "import/gcode_pen.h"
-#include "import/table_layout.h"
+#include "import/table_option.h"
 
 namespace sandstroke {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "haptics/table_settings.h"
-#include "import/table_layout.h"
+#include "import/table_option.h"
 
 namespace sandstroke {
 namespace {

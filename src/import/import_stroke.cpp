@@ -7,7 +7,8 @@
 #include "core/machine.h"
 #include "import/formats.h"
 #include "import/merge_strokes.h"
-#include "import/table_layout.h"
+#include "import/sample_files.h"
+#include "import/table_option.h"
 #include "import/text_table.h"
 
 namespace sandstroke {
@@ -52,15 +53,6 @@ SampleTable read_samples(const fs::path& path, const TableSettings& settings,
 }
 
 }  // namespace
-
-std::string samples_name(const fs::path& path) { return path == "-" ? "standard input" : path.string(); }
-
-std::vector<fs::path> sample_files(const fs::path& path, const TableSettings& settings) {
-  std::vector<fs::path> files;
-  if (path != "-") files.push_back(path);
-  if (!settings.merge.empty()) files.push_back(path.parent_path() / settings.merge);
-  return files;
-}
 
 ImportedStroke import_stroke(const fs::path& path, const TableSettings& settings) {
   TableSettings of_first = settings;

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "import/stroke_of_table.h"
 
@@ -12,13 +11,6 @@ namespace sandstroke {
 /// The stroke in a file of samples, with what the settings' second table adds. "-" is standard input. Error:
 /// input, naming file and line; io, if it cannot be read.
 ImportedStroke import_stroke(const std::filesystem::path& path, const TableSettings& settings);
-
-/// The samples' name in messages.
-std::string samples_name(const std::filesystem::path& path);
-
-/// The files that are read: this one, unless it is standard input, and the table that is merged with it.
-std::vector<std::filesystem::path> sample_files(const std::filesystem::path& path,
-                                                const TableSettings& settings);
 
 /// The stroke in the text of one table; `name` stands for the file in messages.
 ImportedStroke import_stroke_text(std::string_view text, const std::string& name,

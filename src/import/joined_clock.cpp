@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "import/column_name.h"
 #include "import/missing_samples.h"
+#include "import/table_option.h"
 #include "import/units.h"
 
 namespace sandstroke {

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "import/table_option.h"
 #include "import/units.h"
 
 namespace sandstroke {

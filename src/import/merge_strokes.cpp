@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "import/missing_samples.h"
-#include "import/table_layout.h"
+#include "import/table_option.h"
 
 namespace sandstroke {
 namespace {

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "core/error.h"
-#include "import/table_layout.h"
+#include "import/table_option.h"
 
 namespace sandstroke {
 

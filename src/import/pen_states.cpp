@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "haptics/stroke.h"
+#include "import/table_option.h"
 
 namespace sandstroke {
 namespace {

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/small_letters.h"
 #include "import/dialect.h"
+#include "import/table_option.h"
 
 namespace sandstroke {
 namespace {

@@ -14,6 +14,7 @@
 #include "import/pen_states.h"
 #include "import/redundancy.h"
 #include "import/table_layout.h"
+#include "import/table_option.h"
 #include "import/table_times.h"
 #include "import/used_columns.h"
 

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "import/layout_finder.h"
+#include "import/table_option.h"
 
 namespace sandstroke {
 namespace {
@@ -48,16 +49,6 @@ void take_pen_columns(const LayoutFinder& finder, const TableSettings& settings,
 }
 
 }  // namespace
-
-std::string option_of(const std::string& key) {
-  std::string option = "--" + key;
-  std::replace(option.begin(), option.end(), '_', '-');
-  return option;
-}
-
-std::string option_and_key(const std::string& key) {
-  return fmt::format("stroke.table.{} (stroke convert: {})", key, option_of(key));
-}
 
 TableLayout table_layout(const std::vector<SampleColumn>& columns, const TableSettings& settings,
                          const std::string& location, const std::optional<Eigen::Matrix3d>& of_first) {

@@ -46,9 +46,4 @@ struct TableLayout {
 TableLayout table_layout(const std::vector<SampleColumn>& columns, const TableSettings& settings,
                          const std::string& location, const std::optional<Eigen::Matrix3d>& of_first = {});
 
-/// The option of `stroke convert` for a key: "--position-unit".
-std::string option_of(const std::string& key);
-/// A key and its option of `stroke convert`, for messages: "stroke.table.rate (stroke convert: --rate)".
-std::string option_and_key(const std::string& key);
-
 }  // namespace sandstroke

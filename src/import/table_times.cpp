@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "import/missing_samples.h"
 #include "import/redundancy.h"
+#include "import/table_option.h"
 #include "import/units.h"
 
 namespace sandstroke {

@@ -11,6 +11,7 @@
 #include "import/sample_cells.h"
 #include "import/table_header.h"
 #include "import/table_layout.h"
+#include "import/table_option.h"
 #include "import/text_lines.h"
 #include "import/text_parts.h"
 

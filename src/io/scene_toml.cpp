@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/input_file.h"
-#include "import/import_stroke.h"
+#include "import/sample_files.h"
 #include "io/input_kind.h"
 #include "io/key_reader.h"
 #include "io/scene_keys.h"

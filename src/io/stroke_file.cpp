@@ -8,6 +8,7 @@
 #include "core/warning.h"
 #include "haptics/stroke_script.h"
 #include "import/import_stroke.h"
+#include "import/sample_files.h"
 #include "io/input_kind.h"
 #include "io/stroke_format.h"
 #include "io/stroke_script_toml.h"

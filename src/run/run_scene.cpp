@@ -19,7 +19,7 @@
 #include "haptics/stroke_plane.h"
 #include "haptics/stroke_quality.h"
 #include "haptics/stroke_smoothing.h"
-#include "import/import_stroke.h"
+#include "import/sample_files.h"
 #include "io/input_kind.h"
 #include "io/mesh_file.h"
 #include "io/plugin_file.h"
