@@ -205,10 +205,11 @@ int run(const RunArguments& arguments) {
 
   catch_interrupts();
   RunOptions options = options_of(arguments);
-  std::optional<RunView> view;
+  std::unique_ptr<RunView> view;
   if (arguments.view)
     options.onlooker = [&](Simulation& simulation) -> SimulationObserver& {
-      return view.emplace(simulation, fs::path(output).filename().string(), !arguments.no_open);
+      view = open_run_view(simulation, fs::path(output).filename().string(), !arguments.no_open);
+      return *view;
     };
   RunResult result = run_scene(scene, output, options);
   if (result.already_complete) {

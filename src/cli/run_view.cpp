@@ -5,9 +5,13 @@
 #include <limits>
 #include <thread>
 
+#include "cli/announce_view.h"
+#include "cli/recent_rate.h"
 #include "core/interrupt.h"
+#include "core/stopwatch.h"
 #include "render/load_mesh.h"
 #include "view/live_page.h"
+#include "view/view_server.h"
 
 namespace sandstroke {
 namespace {
@@ -16,9 +20,38 @@ constexpr double late = 0.25, nearly_in_time = 0.05;  // s
 
 void sleep(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
 
-}  // namespace
+class LiveRunView : public RunView {
+ public:
+  LiveRunView(Simulation& simulation, const std::string& title, bool opens);
 
-RunView::RunView(Simulation& simulation, const std::string& title, bool opens)
+  void on_tick(const TickRecord& tick) override;
+  void on_relaxation(const RelaxationRecord&) override;
+  void on_pass(std::int64_t, const BedNow& bed_now) override;
+  void on_progress(double fraction) override { playing_ = fraction < 1.0; }
+
+  std::optional<double> lag() const override;
+  void end(const std::string& reason) override { server_.end(reason); }
+
+ private:
+  void wait_until(double time);
+  void publish(const TickRecord& tick);
+  void show_load();
+
+  Simulation& simulation_;
+  LiveBed bed_;
+  LiveState shown_;
+  ViewServer server_;
+  std::unique_ptr<ViewOpener> opener_;
+  ViewState state_;
+  RecentRate rate_;
+  std::optional<Stopwatch> clock_;                 // from the first tick on
+  double published_ = -1.0, published_at_ = -1.0;  // s, in the stroke and on the clock
+  std::int64_t ticks_ = 0;
+  bool playing_;  // the stroke goes on
+  Stopwatch since_pass_;
+};
+
+LiveRunView::LiveRunView(Simulation& simulation, const std::string& title, bool opens)
     : simulation_(simulation),
       bed_(simulation.bed()),
       server_({bed_, shown_,
@@ -30,7 +63,7 @@ RunView::RunView(Simulation& simulation, const std::string& title, bool opens)
   wait_for_page(server_, "run");
 }
 
-void RunView::on_tick(const TickRecord& tick) {
+void LiveRunView::on_tick(const TickRecord& tick) {
   if (!clock_) clock_.emplace();
   const bool due = tick.time - published_ >= picture_interval;
   const double wait = tick.time - clock_->seconds();
@@ -42,7 +75,7 @@ void RunView::on_tick(const TickRecord& tick) {
 }
 
 /// Shows the time while it waits: a simulation reports no idle ticks, so the wait may be long.
-void RunView::wait_until(double time) {
+void LiveRunView::wait_until(double time) {
   for (double left; !interrupted() && (left = time - clock_->seconds()) > 0.0;) {
     sleep(std::min(left, picture_interval));
     if (left <= picture_interval) continue;
@@ -51,7 +84,7 @@ void RunView::wait_until(double time) {
   }
 }
 
-void RunView::publish(const TickRecord& tick) {
+void LiveRunView::publish(const TickRecord& tick) {
   const DeviceSettings& device = simulation_.scene().device;
   published_ = tick.time;
   published_at_ = clock_->seconds();
@@ -69,7 +102,7 @@ void RunView::publish(const TickRecord& tick) {
   bed_.publish(simulation_.shown_bed());
 }
 
-void RunView::show_load() {
+void LiveRunView::show_load() {
   const std::optional<LoadSurface> load = simulation_.load_surface();
   if (!load) return state_.load.reset();
   TriangleMesh mesh = load_mesh(*load);
@@ -77,13 +110,13 @@ void RunView::show_load() {
     state_.load = std::make_shared<TriangleMesh>(std::move(mesh));
 }
 
-std::optional<double> RunView::lag() const {
+std::optional<double> LiveRunView::lag() const {
   return state_.max_lateness > late ? std::optional(state_.max_lateness) : std::nullopt;
 }
 
 /// Shows the bed where no tick is told: as sources go on without a hand, in real time, and at the end, when
 /// nothing waits for the clock.
-void RunView::on_relaxation(const RelaxationRecord& relaxation) {
+void LiveRunView::on_relaxation(const RelaxationRecord& relaxation) {
   if (playing_ && relaxation.time < simulation_.stroke_seconds()) return;
   if (playing_) {
     if (!clock_) clock_.emplace();
@@ -95,10 +128,16 @@ void RunView::on_relaxation(const RelaxationRecord& relaxation) {
   bed_.publish(simulation_.bed());
 }
 
-void RunView::on_pass(std::int64_t, const BedNow& bed_now) {
+void LiveRunView::on_pass(std::int64_t, const BedNow& bed_now) {
   if (playing_ || since_pass_.seconds() < picture_interval) return;
   since_pass_ = {};
   bed_.publish(bed_now());
+}
+
+}  // namespace
+
+std::unique_ptr<RunView> open_run_view(Simulation& simulation, const std::string& title, bool opens) {
+  return std::make_unique<LiveRunView>(simulation, title, opens);
 }
 
 }  // namespace sandstroke
