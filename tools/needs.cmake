@@ -1,5 +1,5 @@
-# Looks for all that a build needs, before anything is compiled, and lists all missing packages at once. The Python module
-# and the tests are left out where theirs are missing, unless they are asked for.
+# Looks for all that a build needs, before anything is compiled, and lists all missing packages at once. A part that is
+# "auto" is left out where its packages are missing.
 set(missing "")
 set(missing_packages "")
 file(READ tools/packages packages)
@@ -27,20 +27,11 @@ sandstroke_needs(CLI11_FOUND libcli11-dev "CLI11 (command lines)" "find_package(
 sandstroke_needs(tomlplusplus_FOUND libtomlplusplus-dev "toml++ (scenes)" "find_package(tomlplusplus QUIET)")
 sandstroke_needs(nlohmann_json_FOUND nlohmann-json3-dev "nlohmann/json (pages)" "find_package(nlohmann_json QUIET)")
 sandstroke_needs(PNG_FOUND libpng-dev "libpng (pictures)" "find_package(PNG QUIET)")
-sandstroke_needs(TIFF_FOUND libtiff-dev "libtiff 4.5 (maps of heights)" "pkg_check_modules(TIFF QUIET IMPORTED_TARGET libtiff-4>=4.5)")
 sandstroke_needs(ZLIB_FOUND zlib1g-dev "zlib (run files)" "find_package(ZLIB QUIET)")
-sandstroke_needs(Boost_FOUND libboost-dev "Boost 1.74 (Beast and Asio: the live view)" "find_package(Boost 1.74 CONFIG QUIET)")
 sandstroke_needs(HDF5_FOUND libhdf5-dev "HDF5 (run files)" "pkg_check_modules(HDF5 QUIET IMPORTED_TARGET hdf5)")
 sandstroke_needs(HDF5_HL_LIBRARY libhdf5-dev "HDF5's high-level library (dimension scales)"
                  "find_library(HDF5_HL_LIBRARY hdf5_hl HINTS ${HDF5_LIBRARY_DIRS})")
 include(tools/hdf5.cmake)
-sandstroke_needs(SQLITE_FOUND libsqlite3-dev "SQLite (ROS 2 bags)" "pkg_check_modules(SQLITE QUIET IMPORTED_TARGET sqlite3)")
-sandstroke_needs(LZ4_FOUND liblz4-dev "LZ4 (MCAP, ROS 1 bags)" "pkg_check_modules(LZ4 QUIET IMPORTED_TARGET liblz4)")
-sandstroke_needs(ZSTD_FOUND libzstd-dev "Zstandard (MCAP)" "pkg_check_modules(ZSTD QUIET IMPORTED_TARGET libzstd)")
-sandstroke_needs(BZIP2_FOUND libbz2-dev "bzip2 (ROS 1 bags)" "find_package(BZip2 QUIET)")
-sandstroke_needs(PUGIXML_FOUND libpugixml-dev "pugixml (InkML, SVG)" "pkg_check_modules(PUGIXML QUIET IMPORTED_TARGET pugixml)")
-sandstroke_needs(CSV_LIBRARY libcsv-dev "libcsv (tables)" "find_library(CSV_LIBRARY csv)")
-sandstroke_needs(DATE_INCLUDE_DIR libhowardhinnant-date-dev "date/date.h (ISO 8601)" "find_path(DATE_INCLUDE_DIR date/date.h)")
 
 # Mesa's llvmpipe draws the pictures, through OSMesa (gone since Mesa 25.1) or EGL. One of the two is enough.
 pkg_check_modules(OSMESA QUIET IMPORTED_TARGET osmesa)
@@ -76,7 +67,43 @@ macro(sandstroke_end_part option what)
 endmacro()
 
 sandstroke_begin_part()
-if(SANDSTROKE_PYTHON OR SANDSTROKE_PYTHON STREQUAL "auto")
+if(SANDSTROKE_IMPORT)  # also "auto"
+  sandstroke_needs(TIFF_FOUND libtiff-dev "libtiff 4.5 (maps of heights)" "pkg_check_modules(TIFF QUIET IMPORTED_TARGET libtiff-4>=4.5)")
+  sandstroke_needs(SQLITE_FOUND libsqlite3-dev "SQLite (ROS 2 bags)" "pkg_check_modules(SQLITE QUIET IMPORTED_TARGET sqlite3)")
+  sandstroke_needs(LZ4_FOUND liblz4-dev "LZ4 (MCAP, ROS 1 bags)" "pkg_check_modules(LZ4 QUIET IMPORTED_TARGET liblz4)")
+  sandstroke_needs(ZSTD_FOUND libzstd-dev "Zstandard (MCAP)" "pkg_check_modules(ZSTD QUIET IMPORTED_TARGET libzstd)")
+  sandstroke_needs(BZIP2_FOUND libbz2-dev "bzip2 (ROS 1 bags)" "find_package(BZip2 QUIET)")
+  sandstroke_needs(PUGIXML_FOUND libpugixml-dev "pugixml (InkML, SVG)" "pkg_check_modules(PUGIXML QUIET IMPORTED_TARGET pugixml)")
+  sandstroke_needs(CSV_LIBRARY libcsv-dev "libcsv (tables)" "find_library(CSV_LIBRARY csv)")
+  sandstroke_needs(DATE_INCLUDE_DIR libhowardhinnant-date-dev "date/date.h (ISO 8601)" "find_path(DATE_INCLUDE_DIR date/date.h)")
+endif()
+sandstroke_end_part(SANDSTROKE_IMPORT "Strokes and maps of other programs are")
+
+sandstroke_begin_part()
+if(SANDSTROKE_VIEW)
+  sandstroke_needs(Boost_FOUND libboost-dev "Boost 1.74 (Beast and Asio: the live view)" "find_package(Boost 1.74 CONFIG QUIET)")
+endif()
+sandstroke_end_part(SANDSTROKE_VIEW "Recording and the live view are")
+if(SANDSTROKE_CHAI3D AND NOT SANDSTROKE_VIEW)
+  message(FATAL_ERROR "SANDSTROKE_CHAI3D records, which needs SANDSTROKE_VIEW=ON")
+endif()
+
+# sandstroke_rests_on(OPTION PARTS...): the part needs others.
+macro(sandstroke_rests_on option)
+  foreach(part ${ARGN})
+    if(NOT ${part} AND ${option} STREQUAL "auto")
+      message(STATUS "${option}=OFF, because of ${part}=OFF")
+      set(${option} OFF)
+    elseif(NOT ${part} AND ${option})
+      message(FATAL_ERROR "${option}=ON needs ${part}=ON")
+    endif()
+  endforeach()
+endmacro()
+sandstroke_rests_on(SANDSTROKE_PYTHON SANDSTROKE_VALIDATION)
+sandstroke_rests_on(SANDSTROKE_TESTS SANDSTROKE_IMPORT SANDSTROKE_VIEW SANDSTROKE_SWEEP SANDSTROKE_VALIDATION)
+
+sandstroke_begin_part()
+if(SANDSTROKE_PYTHON)
   if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)  # prefers Debian's, which has the packages for the tests
     set(Python_EXECUTABLE /usr/bin/python3)
   endif()
@@ -88,7 +115,7 @@ endif()
 sandstroke_end_part(SANDSTROKE_PYTHON "The Python module is")
 
 sandstroke_begin_part()
-if(SANDSTROKE_TESTS OR SANDSTROKE_TESTS STREQUAL "auto")
+if(SANDSTROKE_TESTS)
   sandstroke_needs(MATIO_FOUND libmatio-dev "matio, which writes .mat"
                    "pkg_check_modules(MATIO QUIET IMPORTED_TARGET matio)")
   sandstroke_needs(GTest_FOUND libgtest-dev "googletest" "find_package(GTest QUIET)")

@@ -56,7 +56,8 @@ int run_program(int argc, char** argv) {
       "forces and a picture come out.");
   app.name("sandstroke");
   app.formatter(std::make_shared<HelpFormatter>());  // for all commands
-  app.set_version_flag("--version", fmt::format("{}, {}", build, instruction_set()));
+  app.set_version_flag("--version", fmt::format("{}, {}{}{}", build, instruction_set(),
+                                                *left_out ? ", built without " : "", left_out));
   app.require_subcommand(1);
   app.fallthrough();
   app.footer(
