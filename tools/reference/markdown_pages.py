@@ -104,10 +104,10 @@ class Pages:
         text = CODE.sub(lambda found: keep(found[0]), text)
         text = PICTURE.sub(lambda found: keep(f'<img src="{self.target(page, found[1])}"'), text)
         text = LINK.sub(lambda found: keep(self.link(page, *found.groups())), text)
-        text = re.sub("@|(?<!^)#(?=\\w)", r"\\\g<0>", text)
+        text = re.sub("@|#(?=\\w)", r"\\\g<0>", text)
         while "\ue000" in text:
             text = re.sub("\ue000(\\d+)\ue001", lambda found: kept[int(found[1])], text)
-        return text
+        return re.sub('@ref [^"]+"[^"]+"', lambda found: found[0].replace("`", ""), text)  # which knows no code
 
     def link(self, page: str, picture: str, text: str, link: str) -> str:
         if re.match("https?:", link):

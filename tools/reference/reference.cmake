@@ -1,0 +1,23 @@
+# The target `reference` makes the pages for reading offline (tools/reference/make): build/release/reference/index.html.
+find_program(SANDSTROKE_DOXYGEN doxygen)
+if(NOT Python_EXECUTABLE)
+  find_package(Python 3.9 QUIET COMPONENTS Interpreter)
+endif()
+get_directory_property(libraries DIRECTORY ${CMAKE_SOURCE_DIR}/src DEFINITION SANDSTROKE_LIBRARIES)
+set(SANDSTROKE_REFERENCE --program $<TARGET_FILE:sandstroke> --libraries ${libraries} --version ${PROJECT_VERSION})
+if(SANDSTROKE_PYTHON)
+  list(APPEND SANDSTROKE_REFERENCE --python-path ${SANDSTROKE_PYTHON_DIR})
+endif()
+if(SANDSTROKE_DOXYGEN AND Python_EXECUTABLE)
+  list(PREPEND SANDSTROKE_REFERENCE ${Python_EXECUTABLE} ${CMAKE_CURRENT_LIST_DIR}/make --doxygen ${SANDSTROKE_DOXYGEN})
+  add_custom_target(reference COMMAND ${SANDSTROKE_REFERENCE} -o ${PROJECT_BINARY_DIR}/reference VERBATIM)
+  add_dependencies(reference sandstroke)
+  if(SANDSTROKE_PYTHON)
+    add_dependencies(reference sandstroke_python_package)
+  endif()
+else()
+  set(SANDSTROKE_REFERENCE "")
+  add_custom_target(reference
+    COMMAND ${CMAKE_COMMAND} -E echo "reference: needs Doxygen and Python 3.9: apt-get install doxygen python3, then cmake --preset release"
+    COMMAND ${CMAKE_COMMAND} -E false VERBATIM)
+endif()
