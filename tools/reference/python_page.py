@@ -31,15 +31,6 @@ def load(folder: str) -> ModuleType:
     return importlib.import_module("sandstroke")
 
 
-def public_names(module: ModuleType) -> list[str]:
-    """All that users may name: run, Run, Run.final."""
-    names = []
-    for name in module.__all__:
-        public = getattr(module, name)
-        names += [name, *(f"{name}.{member}" for member in (public_members(public) if inspect.isclass(public) else []))]
-    return names
-
-
 def signature_of(name: str, function: Any, returns: bool = True) -> str:
     signature = inspect.signature(function)
     parameters = [parameter.replace(annotation=words(parameter.annotation))
@@ -92,7 +83,7 @@ def class_html(name: str, owner: type) -> list[str]:
 def alias_html(module: ModuleType, name: str) -> list[str]:
     """A name for types, as the module's source defines it."""
     for part in vars(module).values():
-        if not inspect.ismodule(part) or not part.__name__.startswith(module.__name__) or part.__file__[-3:] != ".py":
+        if not inspect.ismodule(part) or not part.__name__.startswith(module.__name__) or not str(part.__file__).endswith(".py"):
             continue
         for node in ast.parse(inspect.getsource(part)).body:
             if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == name:
