@@ -43,7 +43,7 @@ std::string without_option(std::string sentence) {
 py::handle new_error(py::module_& module, const char* name, py::handle base, py::handle also,
                      const char* text) {
   const std::string full = std::string("sandstroke.") + name;
-  const py::tuple bases = also ? py::make_tuple(base, also) : py::make_tuple(base);
+  const py::tuple bases = also ? py::tuple(py::make_tuple(base, also)) : py::tuple(py::make_tuple(base));
   py::handle error = PyErr_NewExceptionWithDoc(full.c_str(), text, bases.ptr(), nullptr);
   module.add_object(name, error);
   return error;
