@@ -51,7 +51,7 @@ def in_stub(statements):
 
 
 def own(thing):
-    return {name for name in vars(thing) if not name.startswith("__")}
+    return {name for name in vars(thing) if not name.startswith(("__", "_pybind11_"))}
 
 
 def arguments(function):
