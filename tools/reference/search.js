@@ -13,15 +13,16 @@
   document.getElementById("titlearea").append(box);
   document.body.append(list);
 
-  // How well a part answers: 0 is not at all. A title counts more than a text, a whole one more than a part of it.
-  function rank(words, [title, page, , text]) {
+  // How well a part answers: 0 is not at all. A title counts more than a text, a whole one more than a part of it. Commands
+  // and keys come before names of C++ that are as near.
+  function rank(words, [title, page, address, text]) {
     const name = title.toLowerCase(), all = `${name} ${page.toLowerCase()} ${text.toLowerCase()}`;
     if (!words.every((word) => all.includes(word))) return 0;
-    const asked = words.join(" ");
-    if (name === asked || name === `${asked}()`) return 5;
-    if (name.split(/[^\w.-]+/).includes(asked)) return 4;
-    if (name.startsWith(asked)) return 3;
-    return words.every((word) => name.includes(word)) ? 2 : 1;
+    const asked = words.join(" "), first = /^(commands|keys)/.test(address) ? 0.5 : 0;
+    if (name === asked || name === `${asked}()`) return 5 + first;
+    if (name.split(/[^\w.-]+/).includes(asked)) return 4 + first;
+    if (name.split(/[^\w-]+/).some((part) => part.startsWith(asked))) return 3 + first;
+    return (words.every((word) => name.includes(word)) ? 2 : 1) + first;
   }
 
   function element(kind, className, text) {
