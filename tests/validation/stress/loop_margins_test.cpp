@@ -13,10 +13,10 @@
 namespace sandstroke {
 namespace {
 
-const Margin& margin_of(const LoopMargins& loop, const std::string& what) {
+const Margin& margin_of(const LoopMargins& loop, const char* what) {
   for (const Margin& one : loop.margins)
     if (one.what.find(what) != std::string::npos) return one;
-  throw std::runtime_error("no margin of " + what);
+  throw std::runtime_error(std::string("no margin of ") + what);
 }
 
 LoopSettings wall(double stiffness) {
