@@ -44,7 +44,7 @@ HeightRange RangeOf(const double* heights, int rows, int cols) {
   Range range;
   for (int row = 0; row < rows; ++row)
     for (int c = 0; c < cols; c += lanes)
-      range.add(hn::Load(d, heights + row * side + c), hn::FirstN(d, static_cast<std::size_t>(cols - c)));
+      range.add(hn::LoadU(d, heights + row * side + c), hn::FirstN(d, static_cast<std::size_t>(cols - c)));
   return range.over_lanes();
 }
 

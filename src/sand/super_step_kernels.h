@@ -11,7 +11,7 @@ struct FlowSize {
 /// Keeps a flow as F0.
 FlowSize keep_first_flow(const TileFlow& flow, FirstFlow& first);
 
-/// The range of a tile's heights inside the bed.
+/// The range of a tile's heights inside the bed, wherever they lie in memory.
 HeightRange range_of(const double* heights, int rows, int cols);
 
 /// Takes a stage in the active cells' groups. With Y the heights and Z = tile.before: the new Y is Y +

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <vector>
 
 #include "sand/all_laws.h"
 
@@ -152,6 +153,15 @@ TEST(SuperStage, DoesNotTakeAWallForAChange) {
   EXPECT_EQ(changed[0], 0u);
   EXPECT_EQ(range.low, 2.0);
   EXPECT_EQ(range.high, 2.0);
+}
+
+TEST(RangeOf, ReadsHeightsWhereverTheyLieInMemory) {  // a vector's begin at multiples of 16 bytes only
+  std::vector<double> heights(BedGeometry::tile_area + 8, 0.25);
+  for (int offset = 0; offset < 8; ++offset) {
+    const HeightRange range = range_of(heights.data() + offset, 64, 64);
+    EXPECT_EQ(range.low, 0.25) << offset;
+    EXPECT_EQ(range.high, 0.25) << offset;
+  }
 }
 
 TEST(RangeOf, LeavesOutWhatLiesOutsideTheBed) {
