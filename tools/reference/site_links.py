@@ -15,8 +15,6 @@ UNREAD = {"script", "style"}
 # Pages that only list names, or repeat a source.
 LISTS = re.compile(r"(_source|-members|_8md)$|^(functions|globals|namespacemembers)(_|$)|^dir_|"
                    r"^(annotated|classes|files|hierarchy|namespaces|pages)$")
-
-
 # Anchors of lists within a page.
 LISTED = re.compile("-(attribs|classes|members|methods|types)$")
 
@@ -38,6 +36,7 @@ class Page(HTMLParser):
 
     def __init__(self, text: str) -> None:
         super().__init__()
+        self.text = text
         self.title = ""
         self.anchors: set[str] = set()
         self.links: list[Link] = []
@@ -115,7 +114,6 @@ def add_search(folder: Path, pages: dict[str, Page]) -> None:
                 if (part.title or text) and not LISTED.search(part.anchor):
                     title = page.title if part.anchor in ("", "details") else part.title or page.title
                     entries.append([title, page.title, name + (f"#{part.anchor}" if part.anchor else ""), text])
-        path = folder / name
-        path.write_text(mended(path.read_text()).replace("</body>", '<script src="search.js"></script>\n</body>'))
+        (folder / name).write_text(page.text.replace("</body>", '<script src="search.js"></script>\n</body>'))
     listed = json.dumps(entries, ensure_ascii=False, separators=(",", ":"))
     (folder / "search-index.js").write_text(f"const searchIndex = {listed};\n")
