@@ -1,16 +1,38 @@
 # The library hdf5_and_hl: HDF5, and its part for dimension scales. Debian's shared HDF5 brings 30 more libraries (curl,
 # Kerberos, LDAP, for files in the cloud). Loading them takes longer than a short command, so a program may ask for the
 # static one by its property STATIC_HDF5. What is loaded into other programs must not: they may have an HDF5 of their own.
-find_library(HDF5_STATIC_LIBRARY libhdf5.a HINTS ${HDF5_LIBRARY_DIRS})
-find_library(HDF5_HL_STATIC_LIBRARY libhdf5_hl.a HINTS ${HDF5_LIBRARY_DIRS})
-find_library(SZIP_LIBRARY NAMES libsz.a sz HINTS ${HDF5_LIBRARY_DIRS})  # and what the static ones need
-find_library(AEC_LIBRARY NAMES libaec.a aec HINTS ${HDF5_LIBRARY_DIRS})
-set(shared ${HDF5_HL_LIBRARY} PkgConfig::HDF5)
+if(NOT HDF5_INCLUDE_DIR OR NOT HDF5_LIBRARY OR NOT HDF5_HL_LIBRARY)
+  return()  # tools/needs.cmake says so
+endif()
+
+# Its header and its library may lie in two prefixes. Then the program would build, and HDF5 would end it.
+file(STRINGS ${HDF5_INCLUDE_DIR}/H5public.h HDF5_VERSION REGEX "^#define +H5_VERS_INFO ")
+string(REGEX REPLACE "^[^\"]*\"([^\"]*)\".*" "\\1" HDF5_VERSION "${HDF5_VERSION}")
+file(STRINGS ${HDF5_LIBRARY} same REGEX "${HDF5_VERSION}" LIMIT_COUNT 1)
+if(NOT same)
+  message(FATAL_ERROR "${HDF5_LIBRARY} is not \"${HDF5_VERSION}\", of which ${HDF5_INCLUDE_DIR} has the headers.\n"
+                      "Name those that belong together: -DHDF5_INCLUDE_DIR=, -DHDF5_LIBRARY=, -DHDF5_HL_LIBRARY=.")
+endif()
+file(STRINGS ${HDF5_INCLUDE_DIR}/H5pubconf.h parallel REGEX "^#define +H5_HAVE_PARALLEL ")
+if(parallel)
+  message(FATAL_ERROR "The HDF5 of ${HDF5_INCLUDE_DIR} is parallel (MPI). sandstroke needs a serial one: put its prefix "
+                      "first in CMAKE_PREFIX_PATH, or name it by -DHDF5_INCLUDE_DIR=, -DHDF5_LIBRARY=, -DHDF5_HL_LIBRARY=.")
+endif()
+
+cmake_path(GET HDF5_LIBRARY PARENT_PATH beside)
+find_library(HDF5_STATIC_LIBRARY libhdf5.a PATHS ${beside} NO_DEFAULT_PATH)
+find_library(HDF5_HL_STATIC_LIBRARY libhdf5_hl.a PATHS ${beside} NO_DEFAULT_PATH)
+find_library(SZIP_LIBRARY NAMES libsz.a sz HINTS ${beside})  # and what the static ones may need
+find_library(AEC_LIBRARY NAMES libaec.a aec HINTS ${beside})
+set(shared ${HDF5_HL_LIBRARY} ${HDF5_LIBRARY})
 set(static ${shared})
-if(HDF5_STATIC_LIBRARY AND HDF5_HL_STATIC_LIBRARY AND SZIP_LIBRARY AND AEC_LIBRARY AND ZLIB_FOUND AND NOT SANDSTROKE_SANITIZE)  # tests/leaks.supp names the shared one
+if(HDF5_STATIC_LIBRARY AND HDF5_HL_STATIC_LIBRARY AND ZLIB_FOUND AND NOT SANDSTROKE_SANITIZE)  # tests/leaks.supp names the shared one
   include(CheckSourceCompiles)
-  set(CMAKE_REQUIRED_INCLUDES ${HDF5_INCLUDE_DIRS})
-  set(CMAKE_REQUIRED_LIBRARIES ${HDF5_HL_STATIC_LIBRARY} ${HDF5_STATIC_LIBRARY} ${SZIP_LIBRARY} ${AEC_LIBRARY} ZLIB::ZLIB m ${CMAKE_DL_LIBS})
+  set(CMAKE_REQUIRED_INCLUDES ${HDF5_INCLUDE_DIR})
+  set(CMAKE_REQUIRED_LIBRARIES ${SZIP_LIBRARY} ${AEC_LIBRARY})
+  list(FILTER CMAKE_REQUIRED_LIBRARIES EXCLUDE REGEX NOTFOUND)
+  list(PREPEND CMAKE_REQUIRED_LIBRARIES ${HDF5_HL_STATIC_LIBRARY} ${HDF5_STATIC_LIBRARY})
+  list(APPEND CMAKE_REQUIRED_LIBRARIES ZLIB::ZLIB m ${CMAKE_DL_LIBS})
   check_source_compiles(C "#include <hdf5_hl.h>\nint main(void) { return H5LTpath_valid(-1, \"\", 0); }" HDF5_STATIC_LINKS)
   if(HDF5_STATIC_LINKS)
     set(static ${CMAKE_REQUIRED_LIBRARIES})
@@ -19,5 +41,5 @@ if(HDF5_STATIC_LIBRARY AND HDF5_HL_STATIC_LIBRARY AND SZIP_LIBRARY AND AEC_LIBRA
   unset(CMAKE_REQUIRED_LIBRARIES)
 endif()
 add_library(hdf5_and_hl INTERFACE)
-target_include_directories(hdf5_and_hl SYSTEM INTERFACE ${HDF5_INCLUDE_DIRS})
+target_include_directories(hdf5_and_hl SYSTEM INTERFACE ${HDF5_INCLUDE_DIR})
 target_link_libraries(hdf5_and_hl INTERFACE "$<IF:$<BOOL:$<TARGET_PROPERTY:STATIC_HDF5>>,${static},${shared}>")
