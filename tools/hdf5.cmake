@@ -27,18 +27,18 @@ find_library(AEC_LIBRARY NAMES libaec.a aec HINTS ${beside})
 set(shared ${HDF5_HL_LIBRARY} ${HDF5_LIBRARY})
 set(static ${shared})
 if(HDF5_STATIC_LIBRARY AND HDF5_HL_STATIC_LIBRARY AND ZLIB_FOUND AND NOT SANDSTROKE_SANITIZE)  # tests/leaks.supp names the shared one
-  include(CheckSourceCompiles)
-  set(CMAKE_REQUIRED_INCLUDES ${HDF5_INCLUDE_DIR})
-  set(CMAKE_REQUIRED_LIBRARIES ${SZIP_LIBRARY} ${AEC_LIBRARY})
-  list(FILTER CMAKE_REQUIRED_LIBRARIES EXCLUDE REGEX NOTFOUND)
-  list(PREPEND CMAKE_REQUIRED_LIBRARIES ${HDF5_HL_STATIC_LIBRARY} ${HDF5_STATIC_LIBRARY})
-  list(APPEND CMAKE_REQUIRED_LIBRARIES ZLIB::ZLIB m ${CMAKE_DL_LIBS})
-  check_source_compiles(C "#include <hdf5_hl.h>\nint main(void) { return H5LTpath_valid(-1, \"\", 0); }" HDF5_STATIC_LINKS)
+  set(needed ${SZIP_LIBRARY} ${AEC_LIBRARY})
+  list(FILTER needed EXCLUDE REGEX NOTFOUND)
+  list(APPEND needed ZLIB::ZLIB m ${CMAKE_DL_LIBS})
+  try_compile(HDF5_STATIC_LINKS
+              SOURCE_FROM_CONTENT main.c "#include <hdf5_hl.h>\nint main(void) { return H5LTpath_valid(-1, \"\", 0); }\n"
+              SOURCES ${PROJECT_SOURCE_DIR}/tools/hdf5_without_s3.c
+              CMAKE_FLAGS -DINCLUDE_DIRECTORIES=${HDF5_INCLUDE_DIR}
+              LINK_LIBRARIES ${HDF5_HL_STATIC_LIBRARY} ${HDF5_STATIC_LIBRARY} ${needed})
   if(HDF5_STATIC_LINKS)
-    set(static ${CMAKE_REQUIRED_LIBRARIES})
+    add_library(sandstroke_hdf5_without_s3 STATIC tools/hdf5_without_s3.c)
+    set(static ${HDF5_HL_STATIC_LIBRARY} ${HDF5_STATIC_LIBRARY} sandstroke_hdf5_without_s3 ${needed})
   endif()
-  unset(CMAKE_REQUIRED_INCLUDES)
-  unset(CMAKE_REQUIRED_LIBRARIES)
 endif()
 add_library(hdf5_and_hl INTERFACE)
 target_include_directories(hdf5_and_hl SYSTEM INTERFACE ${HDF5_INCLUDE_DIR})
