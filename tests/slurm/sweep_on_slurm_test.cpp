@@ -215,6 +215,43 @@ TEST_F(SweepOnSlurm, ATaskWhoseTimeEndsIsQueuedAgainAndGoesOn) {
   expect_as_local("ended");
 }
 
+// Apptainer is not in Debian. One that runs this program, where the image's would be run, takes its place.
+TEST_F(SweepOnSlurm, TheJobForImagesSweepsAPartInEachTask) {
+  const fs::path apptainer = folder / "bin" / "apptainer";
+  fs::create_directory(folder / "bin");
+  write_file(apptainer, fmt::format("#!/bin/sh -e\n"
+                                    "[ \"$1 $2 $4 $6 $7\" = 'exec --bind --pwd sandstroke.sif sandstroke' ]\n"
+                                    "[ \"$3\" = \"$5\" ]\n"
+                                    "cd \"$5\"\nshift 7\n'{}' \"$@\"\n",
+                                    SANDSTROKE_PROGRAM));
+  fs::permissions(apptainer, fs::perms::owner_all);
+  const auto submit_all = [&] {
+    slurm({"env", "PATH=" + apptainer.parent_path().string() + ":" + std::getenv("PATH"), "sbatch", "--wait",
+           "--mem=1",  // MB: the cluster's node does not say how much it has
+           "--array=1-3", "--chdir=" + folder.string(), "--output=image-%a.log",
+           SANDSTROKE_SOURCE "/tools/container/sweep.sbatch", "plan.toml", "in-image"});
+  };
+  /// How many of the three tasks said that.
+  const auto tasks_with = [&](const std::string& points) {
+    int count = 0;
+    for (const int task : {1, 2, 3})
+      count += read_file(folder / fmt::format("image-{}.log", task)).find(points) != std::string::npos;
+    return count;
+  };
+  submit_all();
+  EXPECT_EQ(tasks_with("8: 8 run now, 0 before"), 3);
+  expect_as_local("in-image");
+
+  fs::remove(SweepFolder::open(folder / "in-image").point_file(7));
+  submit_all();
+  EXPECT_EQ(tasks_with("8: 1 run now, 7 before"), 1);
+  EXPECT_EQ(tasks_with("8: 0 run now, 8 before"), 2);
+  expect_as_local("in-image");
+  EXPECT_EQ(sweep({"collect", "in-image"}).exit_code, 0);
+}
+
+// The last test: the controller that is started again may take tasks for running that have ended, and their
+// processors for taken.
 TEST_F(SweepOnSlurm, WhatAKilledControllerLeavesIsFinishedHere) {
   const SlurmJobs jobs = submit("orphaned", {"--tasks", "4"});
   ASSERT_TRUE(comes_true([&] { return some_point_done("orphaned", jobs.tasks[0]); }));
