@@ -5,12 +5,12 @@ if(NOT HDF5_INCLUDE_DIR OR NOT HDF5_LIBRARY OR NOT HDF5_HL_LIBRARY)
   return()  # tools/needs.cmake says so
 endif()
 
-# Its header and its library may lie in two prefixes. Then the program would build, and HDF5 would end it.
+# Its headers and its library may come from two prefixes. Then the program would build, but HDF5 would stop it.
 file(STRINGS ${HDF5_INCLUDE_DIR}/H5public.h HDF5_VERSION REGEX "^#define +H5_VERS_INFO ")
 string(REGEX REPLACE "^[^\"]*\"([^\"]*)\".*" "\\1" HDF5_VERSION "${HDF5_VERSION}")
 file(STRINGS ${HDF5_LIBRARY} same REGEX "${HDF5_VERSION}" LIMIT_COUNT 1)
 if(NOT same)
-  message(FATAL_ERROR "${HDF5_LIBRARY} is not \"${HDF5_VERSION}\", of which ${HDF5_INCLUDE_DIR} has the headers.\n"
+  message(FATAL_ERROR "${HDF5_LIBRARY} is not \"${HDF5_VERSION}\", but the headers in ${HDF5_INCLUDE_DIR} are.\n"
                       "Name those that belong together: -DHDF5_INCLUDE_DIR=, -DHDF5_LIBRARY=, -DHDF5_HL_LIBRARY=.")
 endif()
 file(STRINGS ${HDF5_INCLUDE_DIR}/H5pubconf.h parallel REGEX "^#define +H5_HAVE_PARALLEL ")
@@ -38,6 +38,8 @@ if(HDF5_STATIC_LIBRARY AND HDF5_HL_STATIC_LIBRARY AND ZLIB_FOUND AND NOT SANDSTR
   if(HDF5_STATIC_LINKS)
     add_library(sandstroke_hdf5_without_s3 STATIC tools/hdf5_without_s3.c)
     set(static ${HDF5_HL_STATIC_LIBRARY} ${HDF5_STATIC_LIBRARY} sandstroke_hdf5_without_s3 ${needed})
+  else()
+    message(STATUS "The program loads the shared HDF5, because ${HDF5_STATIC_LIBRARY} cannot be linked")
   endif()
 endif()
 add_library(hdf5_and_hl INTERFACE)
