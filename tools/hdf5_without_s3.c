@@ -1,6 +1,6 @@
 /* HDF5's driver for files in the cloud (S3) calls curl and OpenSSL, which bring 30 libraries. sandstroke opens no such
-   files. Where HDF5 is part of a program, these take their place, and fail. Hidden: no library finds them instead of
-   the real ones. */
+   files. In a program that contains HDF5, the driver calls these functions instead, and they fail. They are hidden, so
+   that no other library calls them. */
 #define FAILS(function, failure) \
   __attribute__((visibility("hidden"))) long function(void) { return failure; }
 
