@@ -28,11 +28,13 @@ sandstroke_needs(tomlplusplus_FOUND libtomlplusplus-dev "toml++ (scenes)" "find_
 sandstroke_needs(nlohmann_json_FOUND nlohmann-json3-dev "nlohmann/json (pages)" "find_package(nlohmann_json QUIET)")
 sandstroke_needs(PNG_FOUND libpng-dev "libpng (pictures)" "find_package(PNG QUIET)")
 sandstroke_needs(ZLIB_FOUND zlib1g-dev "zlib (run files)" "find_package(ZLIB QUIET)")
-# Not through pkg-config, for which HDF5's own "make install" leaves no file.
-sandstroke_needs(HDF5_INCLUDE_DIR libhdf5-dev "HDF5 (run files)" "find_path(HDF5_INCLUDE_DIR hdf5_hl.h PATH_SUFFIXES hdf5/serial)")
-sandstroke_needs(HDF5_LIBRARY libhdf5-dev "HDF5 (run files)" "find_library(HDF5_LIBRARY hdf5 PATH_SUFFIXES hdf5/serial)")
+# Not through pkg-config, for which HDF5's own "make install" leaves no file. Debian's libraries have names of their own.
+sandstroke_needs(HDF5_INCLUDE_DIR libhdf5-dev "HDF5's headers (run files)"
+                 "find_path(HDF5_INCLUDE_DIR hdf5_hl.h PATH_SUFFIXES hdf5/serial)")
+sandstroke_needs(HDF5_LIBRARY libhdf5-dev "HDF5 (run files)"
+                 "find_library(HDF5_LIBRARY NAMES hdf5_serial hdf5 NAMES_PER_DIR)")
 sandstroke_needs(HDF5_HL_LIBRARY libhdf5-dev "HDF5's high-level library (dimension scales)"
-                 "find_library(HDF5_HL_LIBRARY hdf5_hl PATH_SUFFIXES hdf5/serial)")
+                 "find_library(HDF5_HL_LIBRARY NAMES hdf5_serial_hl hdf5_hl NAMES_PER_DIR)")
 include(tools/hdf5.cmake)
 
 # Mesa's llvmpipe draws the pictures, through OSMesa (gone since Mesa 25.1) or EGL. One of the two is enough.
