@@ -99,7 +99,7 @@ macro(sandstroke_rests_on option)
       message(STATUS "${option}=OFF, because of ${part}=OFF")
       set(${option} OFF)
     elseif(NOT ${part} AND ${option})
-      message(FATAL_ERROR "${option}=ON needs ${part}=ON")
+      message(FATAL_ERROR "${option}=ON needs ${part}=ON, which was left out (see above); or take -D${option}=OFF")
     endif()
   endforeach()
 endmacro()
@@ -108,7 +108,8 @@ sandstroke_rests_on(SANDSTROKE_TESTS SANDSTROKE_IMPORT SANDSTROKE_VIEW SANDSTROK
 
 sandstroke_begin_part()
 if(SANDSTROKE_PYTHON)
-  if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)  # prefers Debian's, which has the packages for the tests
+  # Prefers the system's, which has the packages for the tests, to others on the path; but not to conda's.
+  if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3 AND NOT DEFINED ENV{CONDA_PREFIX})
     set(Python_EXECUTABLE /usr/bin/python3)
   endif()
   sandstroke_needs(Python_FOUND python3-dev "Python 3.9 with its headers"
@@ -117,6 +118,9 @@ if(SANDSTROKE_PYTHON)
                    "find_package(pybind11 2.9 CONFIG QUIET)")
 endif()
 sandstroke_end_part(SANDSTROKE_PYTHON "The Python module is")
+if(SANDSTROKE_PYTHON AND NOT missing)
+  message(STATUS "The Python module is for ${Python_EXECUTABLE} (${Python_VERSION}; -DPython_EXECUTABLE= names another)")
+endif()
 
 sandstroke_begin_part()
 if(SANDSTROKE_TESTS)

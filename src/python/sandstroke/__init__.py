@@ -8,7 +8,12 @@
 run, read, compare and render are functions; Simulation is a device that is stepped tick by tick, step_many steps many at once. All numbers are in SI units. The results have the same bits as those of the command `sandstroke run`.
 """
 
-from . import _sandstroke
+try:
+    from . import _sandstroke
+except ImportError as error:
+    from ._build import check_python
+    check_python(error)
+    raise
 from ._arguments import Laws, Scene, SceneLike, StrokeLike
 from ._judging import bench, stress
 from ._picture import render
