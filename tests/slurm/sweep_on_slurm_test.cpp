@@ -1,4 +1,5 @@
 // Sweeps on a real cluster: tests/slurm/cluster runs this program.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <spdlog/fmt/fmt.h>
@@ -225,11 +226,13 @@ TEST_F(SweepOnSlurm, TheJobForImagesSweepsAPartInEachTask) {
                                     "cd \"$5\"\nshift 7\n'{}' \"$@\"\n",
                                     SANDSTROKE_PROGRAM));
   fs::permissions(apptainer, fs::perms::owner_all);
-  const auto submit_all = [&] {
-    slurm({"env", "PATH=" + apptainer.parent_path().string() + ":" + std::getenv("PATH"), "sbatch", "--wait",
-           "--mem=1",  // MB: the cluster's node does not say how much it has
-           "--array=1-3", "--chdir=" + folder.string(), "--output=image-%a.log",
-           SANDSTROKE_SOURCE "/tools/container/sweep.sbatch", "plan.toml", "in-image"});
+  const auto submit_array = [&](const std::string& array) {
+    const auto result =
+        run_child({"env", "PATH=" + apptainer.parent_path().string() + ":" + std::getenv("PATH"), "sbatch",
+                   "--wait", "--mem=1",  // MB: the cluster's node does not say how much it has
+                   "--array=" + array, "--chdir=" + folder.string(), "--output=image-%a.log",
+                   SANDSTROKE_SOURCE "/tools/container/sweep.sbatch", "plan.toml", "in-image"});
+    return result ? result->exit_code : -1;
   };
   /// How many of the three tasks said that.
   const auto tasks_with = [&](const std::string& points) {
@@ -238,12 +241,17 @@ TEST_F(SweepOnSlurm, TheJobForImagesSweepsAPartInEachTask) {
       count += read_file(folder / fmt::format("image-{}.log", task)).find(points) != std::string::npos;
     return count;
   };
-  submit_all();
+  // Some tasks of an array alone would take other parts.
+  EXPECT_EQ(submit_array("1,3"), 2);
+  EXPECT_THAT(read_file(folder / "image-3.log"), testing::HasSubstr("the same N each time"));
+  EXPECT_FALSE(fs::exists(folder / "in-image"));
+
+  EXPECT_EQ(submit_array("1-3"), 0);
   EXPECT_EQ(tasks_with("8: 8 run now, 0 before"), 3);
   expect_as_local("in-image");
 
   fs::remove(SweepFolder::open(folder / "in-image").point_file(7));
-  submit_all();
+  EXPECT_EQ(submit_array("1-3"), 0);
   EXPECT_EQ(tasks_with("8: 1 run now, 7 before"), 1);
   EXPECT_EQ(tasks_with("8: 0 run now, 8 before"), 2);
   expect_as_local("in-image");
