@@ -10,7 +10,8 @@ def check_python(error: ImportError) -> None:
     folder = pathlib.Path(__file__).parent
     if any((folder / f"_sandstroke{suffix}").exists() for suffix in importlib.machinery.EXTENSION_SUFFIXES):
         return
-    built = ", ".join(sorted(file.name for file in folder.glob("_sandstroke*.so"))) or "none"
+    built = ", ".join(sorted(file.name for file in folder.glob("_sandstroke*.so")))
+    others = f", only {built}" if built else ""
     version = ".".join(map(str, sys.version_info[:2]))
-    raise ImportError(f"{folder} has no compiled module for Python {version} ({sys.executable}), only {built}. Install it with this Python "
+    raise ImportError(f"{folder} has no compiled module for Python {version} ({sys.executable}){others}. Install it with this Python "
                       "(pip install . in a clone), or build for it (cmake -DPython_EXECUTABLE=...)") from error
